@@ -183,9 +183,7 @@ double settlement_of(const Model& m, double block_bound) {
 Prepared prepare(const Scene& scene, bool allow_unstable) {
   Built built = build(scene);
   Prepared p{std::move(built.model), std::move(built.state), {}, {}, {}, {}, 0, {}, std::move(built.warnings), std::move(built.notes)};
-  if (scene.analysis.levels > 1)
-    p.warnings.push_back(fmt::format(
-        "levels = {} is on trial: a contact may slip or rebound otherwise than with levels = 1; compare the two", scene.analysis.levels));
+  if (scene.push.quasi_static()) p.model.analysis.levels = 1;
   check_shapes(scene, p.model);
   find_islands(p.model, p.state);
   update_all_references(p.model, p.state);

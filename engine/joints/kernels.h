@@ -176,7 +176,6 @@ struct alignas(64) BlockWork {
 
 struct KickDrift {
   double kick, dt, half_last, half_next;     // s
-  double joints;                             // impulse of joints over the kick: 1 with one level, 0 in a step in which they do not act
   double more;                               // as `book()` says
   double damping, damped_keep, damped_kick;  // 1/s; a damped kick is `(1 + damped_keep) v + kick (1 + damped_kick) contact_wrench`
   double local;                              // Model::local_damping

@@ -281,7 +281,7 @@ Interlock interlock_now(const Model& m, const State& s) {
   const bool levels = has_levels(t);
   const int macro_steps = std::max(1, interlock_every / t.substeps);  // between two updates, with levels
   const bool due = levels ? at_macro_step(t) && t.macro % macro_steps == 0 : t.step % interlock_every == 0;
-  const double way = interlock_speed * std::sqrt(g * m.settlement) * t.since_joints,
+  const double way = interlock_speed * std::sqrt(g * m.settlement) * t.last_dt,
                since = (levels ? macro_steps * t.last_substeps : interlock_every) * t.last_dt,
                time = interlock_time * std::sqrt(m.settlement / g);
   return {interlock_gap * m.settlement, way * way, due && since > 0 ? since / (since + time) : 0};

@@ -70,9 +70,8 @@ struct alignas(64) ContactPair {
   // 1: the pair has the faces and the stiffness of a former joint; once separated it is debris. 2: its stiffness is changing to that of
   // debris.
   std::uint8_t former_joint = 0;
-  // The pair acts every 2^level steps (model/levels.h); the next macro step has `next_level`.
-  std::uint8_t level = 0, next_level = 0;
-  Corners corners;  // cache only
+  std::uint8_t slow = 0;  // 1: the pair acts once in a macro step (model/levels.h)
+  Corners corners;        // cache only
 };
 
 struct PairList {
@@ -89,6 +88,7 @@ struct PairList {
   std::vector<double> block_bounds;              // 1/s2, part that each block adds                       [nblock]
   long bound_updates = 0, bound_updated_at = 0;  // number of updates, step of the last one
   bool by_blocks = false;                        // the last update bounded joints block by block too
+  std::vector<std::uint8_t> fast;                // blocks whose pairs act in every step [nblock]; empty: those of all (levels.h)
 };
 
 // A separated pair. It needs no update until its two bodies may have closed the distance.
@@ -125,8 +125,8 @@ template <class P, class F>
 requires std::is_same_v<std::remove_const_t<P>, ContactPair>
 void each(P& p, F&& f) {
   f("a", p.a), f("b", p.b), f("part_a", p.part_a), f("part_b", p.part_b), f("law", p.law);
-  f("b_is_reference", p.b_is_reference), f("touching", p.touching), f("former_joint", p.former_joint), f("level", p.level),
-      f("next_level", p.next_level), f("separating_axis", p.separating_axis);
+  f("b_is_reference", p.b_is_reference), f("touching", p.touching), f("former_joint", p.former_joint), f("slow", p.slow),
+      f("separating_axis", p.separating_axis);
   f("rotation", p.rotation), f("shift", p.shift), f("n", p.n), f("c", p.c), f("u", p.u), f("psi", p.psi);
   f("area", p.area), f("gyration", p.gyration), f("mean_normal_force", p.mean_normal_force), f("peak_closing_speed", p.peak_closing_speed),
       f("impact", p.impact);
@@ -139,7 +139,7 @@ void each(P& p, F&& f) {
   f("pair", p.pair), f("margin", p.margin), f("valid", p.valid), f("start", p.start), f("u", p.u), f("rotation", p.rotation),
       f("searches", p.searches);
   f("contact_count", p.contact_count), f("bound_at_last_update", p.bound_at_last_update), f("block_bounds", p.block_bounds),
-      f("bound_updates", p.bound_updates), f("bound_updated_at", p.bound_updated_at), f("by_blocks", p.by_blocks);
+      f("bound_updates", p.bound_updates), f("bound_updated_at", p.bound_updated_at), f("by_blocks", p.by_blocks), f("fast", p.fast);
 }
 
 template <class P, class F>

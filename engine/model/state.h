@@ -63,10 +63,10 @@ struct TimeStep {
   // Levels (model/levels.h): all interactions act at the start of a macro step of `substeps` steps, of which `substep` is the next.
   long macro = 0;  // macro steps before this one
   int substep = 0, substeps = 1, last_substeps = 1, next_substeps = 1;
-  int joint_level = 0, next_joint_level = 0;  // joints act every 2^level steps
-  double next_dt = 0;                         // s, of the steps of the next macro step
-  double joints_dt = 0;                       // s, step of joints, which follows their limits and events; with one level it is the step
-  double since_joints = 0;                    // s, since joints acted last; 0 at the start
+  double next_dt = 0;                 // s, of the steps of the next macro step
+  double fast_dt = 0, slow_dt = 0;    // s, that fast and loose blocks bear; 0: the blocks are not divided
+  double slow_event_dt = 0;           // s, step of loose blocks allowed by the next openings and closings of slow pairs; 0: any
+  int macro_steps_since_limited = 0;  // macro steps since slow pairs last limited them
 };
 
 // Arrays of blocks are [nblock + 1]; the last is a block at rest, for unused lanes.

@@ -16,7 +16,7 @@ requires std::is_same_v<std::remove_const_t<S>, State>
 void each(S& state, F&& f) {
   auto& [time, pose, motion, topology, joints, contacts, sleep, cache, energy, tilt, observed] = state;
   auto& [step, start_step, start_t, t, dt, last_dt, dt_target, steps_since_limited, event_dt, macro, substep, substeps, last_substeps,
-         next_substeps, joint_level, next_joint_level, next_dt, joints_dt, since_joints] = time;
+         next_substeps, next_dt, fast_dt, slow_dt, slow_event_dt, macro_steps_since_limited] = time;
   auto& [u, q] = pose;
   auto& [v, spin_momentum, w] = motion;
   auto& [island, grounded, joined, unjoined, loose] = topology;
@@ -67,11 +67,11 @@ void each(S& state, F&& f) {
   f("substeps", substeps, Part::carried);
   f("last_substeps", last_substeps, Part::carried);
   f("next_substeps", next_substeps, Part::carried);
-  f("joint_level", joint_level, Part::carried);
-  f("next_joint_level", next_joint_level, Part::carried);
   f("next_dt", next_dt, Part::carried);
-  f("joints_dt", joints_dt, Part::carried);
-  f("since_joints", since_joints, Part::carried);
+  f("fast_dt", fast_dt, Part::carried);
+  f("slow_dt", slow_dt, Part::carried);
+  f("slow_event_dt", slow_event_dt, Part::carried);
+  f("macro_steps_since_limited", macro_steps_since_limited, Part::carried);
   f("joints_broken", joints_broken, Part::history);
   f("energy", energy, Part::carried);
   f("gravity_before", gravity_before, Part::carried);

@@ -187,7 +187,11 @@ void check_analysis(Report& report, const Scene& scene) {
   const Place place = analysis.place.file.empty() ? Place{scene.file, 0} : analysis.place;
   if (analysis.duration == 0 && !scene.push.quasi_static())
     report.say(place, "the run has no duration; add analysis{{ duration = 10 }} (seconds)");
-  else if (analysis.duration > 0) check_fields(report, analysis, "analysis", place);
+  else if (analysis.duration > 0) {
+    Analysis given = analysis;
+    given.levels = analysis.contact_levels();
+    check_fields(report, given, "analysis", place);
+  }
   check_counts(report, analysis, place);
   check_fields(report, scene.damping, "damping", scene.damping.place);
   if (scene.damping.at > 0 && scene.damping.joint_ratio <= 0)

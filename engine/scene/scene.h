@@ -170,13 +170,15 @@ struct Analysis {
   bool debris = true;                 // contacts of loose blocks; false only to measure their cost
   bool sleep = false;                 // debris at rest is not computed until something disturbs it
   bool ledger = true;                 // the energy ledger between rows; false only to measure its cost
-  int levels = 1;                     // time levels of contacts: each acts every 1, 2, 4, ... 2^(levels - 1) steps (model/levels.h)
+  int levels = 0;                     // contacts of loose blocks act once in 2^(levels - 1) steps at most; 0: not given (model/levels.h)
   double lazy_rotation = 1e-4;        // rad, block rotation between updates of joint frames
   bool gyroscopic = true;             // false: the scalar Euler equation of Gu and Miao eq. (1), for comparison only
   double output_dt = 0.01;            // s, rows of histories.csv and energy.csv
   double frame_dt = 0.04;             // s, poses for pictures
   bool frame_stress = false;          // with the mean stresses and the resultants of the joints
   Place place;
+
+  int contact_levels() const { return levels > 0 ? levels : 4; }
 
   static Fields<Analysis> fields() {
     return {
@@ -205,7 +207,9 @@ struct Analysis {
         {"energy_gate", &Analysis::energy_tolerance, "", "largest relative energy residual of an accurate run (0: by the kind of run)", 0,
          1e6},
         {"levels", &Analysis::levels, "",
-         "time levels: a contact acts every 1, 2, 4, ... or 2^(levels - 1) steps, as its blocks allow (1: one step for all)", 1, 8},
+         "time levels: contacts of loose blocks act once in 2^(levels - 1) steps at most, while joints keep the step short; 1: in every "
+         "step (default 4)",
+         1, 8},
         {"lazy_rotation", &Analysis::lazy_rotation, "rad", "block rotation between updates of joint frames", 0, 0.1},
         {"gyroscopic", &Analysis::gyroscopic, "", "the gyroscopic term w x (I w)"},
         {"output_dt", &Analysis::output_dt, "s", "time between rows of histories.csv and energy.csv", 1e-9, 1e6},

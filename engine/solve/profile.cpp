@@ -50,7 +50,7 @@ std::vector<std::string> limit_lines(const Profile& profile, const Model& model)
     kinds[limit.by].steps += steps;
     if (limit.block >= 0) kinds[limit.by].blocks.emplace_back(-steps, limit.block);
   }
-  const auto percent = [&](long steps) { return 100 * double(steps) / double(profile.noted()); };
+  const auto percent = [&](long steps) { return 100 * double(steps) / double(profile.steps()); };
   std::vector<std::pair<long, std::string>> lines;
   for (auto& [by, kind] : kinds) {
     std::string names;
@@ -69,9 +69,9 @@ std::vector<std::string> limit_lines(const Profile& profile, const Model& model)
 
 Profile& Profile::operator+=(const Profile& other) {
   for (std::size_t i = 0; i < phase_s_.size(); ++i) phase_s_[i] += other.phase_s_[i];
-  for (std::size_t i = 0; i < evaluations_.size(); ++i) evaluations_[i] += other.evaluations_[i];
   for (const auto& [limit, steps] : other.limits_) limits_[limit] += steps;
-  noted_ += other.noted_;
+  steps_ += other.steps_, macro_steps_ += other.macro_steps_;
+  fast_ += other.fast_, slow_ += other.slow_;
   sum_dt_ += other.sum_dt_;
   return *this;
 }

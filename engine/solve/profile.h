@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/model/levels.h"
+#include "engine/model/state.h"
 #include "engine/solve/contacts/step_limit.h"
 
 namespace erbs {
@@ -41,27 +41,30 @@ class Profile {
     last_ = now;
   }
   bool measured() const { return measured_; }
-  void note(const StepLimit& limit, double dt) { ++limits_[limit], ++noted_, sum_dt_ += dt; }
-  void note_levels(const std::array<long, most_levels>& evaluations) {
-    for (std::size_t l = 0; l < evaluations.size(); ++l) evaluations_[l] += evaluations[l];
+  // A macro step: what limits its steps, and the pairs that act in every step and once (model/levels.h).
+  void note(const StepLimit& limit, const TimeStep& time, int fast, int slow) {
+    limits_[limit] += time.substeps, steps_ += time.substeps, ++macro_steps_, sum_dt_ += time.substeps * time.dt;
+    fast_ += long(time.substeps) * (time.substeps > 1 ? fast : fast + slow);
+    if (time.substeps > 1) slow_ += slow;
   }
   Profile& operator+=(const Profile& other);
 
   // s, of the phases if all steps took `all` together.
   std::array<double, std::size_t(Phase::count)> seconds(double all) const;
-  long noted() const { return noted_; }
-  double mean_dt() const { return noted_ > 0 ? sum_dt_ / double(noted_) : 0; }       // s, of macro steps
-  const std::map<StepLimit, long>& limits() const { return limits_; }                // macro steps by what limits them
-  const std::array<long, most_levels>& evaluations() const { return evaluations_; }  // of pairs, by level
+  long steps() const { return steps_; }
+  double mean_dt() const { return steps_ > 0 ? sum_dt_ / double(steps_) : 0; }                    // s, of steps
+  double mean_macro_dt() const { return macro_steps_ > 0 ? sum_dt_ / double(macro_steps_) : 0; }  // s, of macro steps
+  const std::map<StepLimit, long>& limits() const { return limits_; }                             // steps by what limits them
+  long fast() const { return fast_; }  // evaluations of pairs that act in every step, ...
+  long slow() const { return slow_; }  // ... and of those that act once in a macro step
 
  private:
   using Clock = std::chrono::steady_clock;
   bool measured_ = false;
   Clock::time_point last_{};
   std::array<double, std::size_t(Phase::count)> phase_s_{};
-  std::array<long, most_levels> evaluations_{};
   std::map<StepLimit, long> limits_;
-  long noted_ = 0;
+  long steps_ = 0, macro_steps_ = 0, fast_ = 0, slow_ = 0;
   double sum_dt_ = 0;
 };
 

@@ -36,8 +36,7 @@ Solver::Solver(const Model& model, State& state, const StepRange& range, int thr
       fading_(model, state),
       contacts_(model, state, range, threads),
       ledger_(model, state),
-      may_have_levels_(model.analysis.levels > 1 && !model.analysis.unstable && model.analysis.solver == "leapfrog" &&
-                       owner_computes(model) && !model.dashpots),
+      may_have_levels_(may_have_levels(model)),
       threads_(threads),
       team_(threads, [this](int thread) { work(thread); }) {
   if (state.time.dt_target == 0) state.time.dt_target = state.time.dt;
@@ -91,7 +90,7 @@ void Solver::prepare_step(const SamplePlan& plan) {
   else if (has_contacts_) contacts_.prepare_substep(contact_interlock(model_, state_));
   if (has_contacts_ && contact_wrench_.empty()) {
     contact_wrench_.assign(constants_.size() * pack_size, 0.0);
-    if (model_.analysis.levels > 1) contact_kick_ = contact_wrench_;
+    if (may_have_levels_) contact_kick_ = contact_wrench_;
   }
   loads_.evaluate();
   if (stop_ == Stop::sample) begin_sample();
@@ -107,7 +106,7 @@ void Solver::update_outdated() {
 void Solver::forces(int thread) {
   if (has_contacts_) contacts_.forces(thread, sampling());
   if (thread == 0) lap(Phase::contact);
-  if (joints_act(state_.time)) joints_.forces(thread, threads_, sampling(), budget_);
+  joints_.forces(thread, threads_, sampling(), budget_);
   if (thread == 0) lap(Phase::joints);
 }
 
@@ -119,21 +118,15 @@ void Solver::transitions() {
     return;
   }
   const bool may_release = model_.analysis.debris && joints_.any_cracked() && every(model_.release_every, time);
-  if (has_contacts_ && time.substeps > 1 && may_release && contacts_.joints_are_ready(joints_.cracked())) {
-    contacts_.reset_levels();  // the new contacts act in the next step
-    time.substeps = 1;
-    time.joint_level = 0;
-  }
   if (has_contacts_) contacts_.gather(contact_wrench_.data(), has_levels(time) ? contact_kick_.data() : nullptr, sampling());
   if (time.step == 0) {  // contacts present at the start, blows soon after it and joints that yield at once limit the first drift
     const double blows = has_contacts_ ? contacts_.bound().event_rate() : 0, rate = std::max(blows, event_rate_at_start());
     if (rate > 0) time.event_dt = 1 / rate;
-    if (const double dt = next_dt(time.dt); dt < time.dt) {
-      set_dt(time.joints_dt = dt);
+    if (const double dt = next_dt_of_all(); dt < time.dt) {
+      set_dt(dt);
       loads_.evaluate();
     }
   }
-  relisted_ = false;
   const double softened = event_tolerance * state_.energy.reference;
   if (has_contacts_ && every(soften_every, time))
     contacts_.soften_former_joints(softened, every(find_soft_every, time), interval(soften_every, time));
@@ -142,7 +135,6 @@ void Solver::transitions() {
   fading_.book(joints_.cracked());  // before a release clears the memory of its joints
   const std::vector<int> released = contacts_.release_joints(joints_.cracked());
   if (released.empty()) return;
-  relisted_ = true;
   released_.insert(released_.end(), released.begin(), released.end());
   joints_.leave(released);
   find_islands(model_, state_);
@@ -254,13 +246,12 @@ void Solver::close_step(const SamplePlan& plan) {
   s.time.t = s.time.start_t + double(s.time.step + 1 - s.time.start_step) * s.time.dt;
   ++s.time.step;
   s.time.last_dt = s.time.dt;
-  s.time.since_joints = (joints_act(s.time) ? 0 : s.time.since_joints) + s.time.dt;
   if (at_macro_step(s.time)) {
     judge_step();
     plan_macro_step(plan);
     if (profile_.measured()) {
-      profile_.note(limit(), macro_dt(s.time));
-      if (has_contacts_ && may_have_levels_) profile_.note_levels(contacts_.evaluations_by_level());
+      const ContactBound& bound = contacts_.bound();
+      profile_.note(limit(), s.time, bound.pairs(false), bound.pairs(true));
     }
     lap(Phase::contact);
   }
@@ -269,7 +260,6 @@ void Solver::close_step(const SamplePlan& plan) {
   s.time.substep = 0;
   s.time.last_substeps = s.time.substeps;
   s.time.substeps = s.time.next_substeps;
-  s.time.joint_level = s.time.next_joint_level;
   set_dt(s.time.next_dt);
 }
 
@@ -334,7 +324,7 @@ Vec6 Solver::block_wrench(int b) const {
 
 Vec6 Solver::kick_wrench(int b) const {
   if (!has_levels(state_.time)) return block_wrench(b);
-  const Vec6 joints = joints_share(state_.time) * joint_wrench(model_, state_, b);
+  const Vec6 joints = joint_wrench(model_, state_, b);
   return has_contacts_ ? Vec6(joints + Eigen::Map<const Vec6>(&contact_kick_[8 * z(b)])) : joints;
 }
 

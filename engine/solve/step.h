@@ -93,15 +93,17 @@ class Solver {
   void apply_prescribed_motions();
   void check_momentum();
   // time_step.cpp
+  enum class Part { all, fast, loose };  // of the moving blocks (`ContactBound::divide`)
+  double next_dt(double now, double allowed, double event, Part part, int steps, int& since_limited) const;
+  double next_dt_of_all();
   void plan_macro_step(const SamplePlan& plan);
-  double next_dt(double dt_now, bool levels = false);
   void set_dt(double dt);
   void lap(Phase phase);
   double event_rate_of_first_openings() const;
   double event_rate_at_start() const;
   void foresee_events();
-  bool may_grow(double from, double dt) const;
-  double vibration() const;
+  bool may_grow(double from, double dt, Part part) const;
+  double vibration(Part part) const;
   void judge_step();
 
   const Model& model_;
@@ -129,7 +131,6 @@ class Solver {
   Stop stop_ = Stop::none;
   bool broken_ = false, has_contacts_ = false, has_transitions_ = false;
   const bool may_have_levels_;
-  bool relisted_ = false;  // joints were released to contact in this step: the results of its pairs are void
   const int threads_;
   Team team_;
 };

@@ -46,38 +46,50 @@ double Solver::stable_dt(double critical) const {
 
 // Judges the last step by the contacts at its end.
 void Solver::judge_step() {
-  if (!has_contacts_ || !(state_.time.last_dt > step_slack * contacts_.bound().allowed_dt())) return;
-  long_steps_.add(state_.time.last_dt / contacts_.bound().stable_dt());
+  if (!has_contacts_) return;
+  const TimeStep& time = state_.time;
+  const ContactBound& bound = contacts_.bound();
+  const auto judge = [&](double taken, double allowed, auto stable) {
+    if (taken > step_slack * allowed) long_steps_.add(taken / stable());
+  };
+  if (time.last_substeps == 1 || !bound.is_split()) return judge(time.last_dt, bound.allowed_dt(), [&] { return bound.stable_dt(); });
+  for (const bool loose : {false, true})
+    judge(interval_before(time, loose), bound.allowed_dt(loose), [&] { return bound.stable_dt(loose); });
 }
 
-// The step follows the contacts. It shrinks at once. It grows after 100 steps without a limit, and by half at most, because impacts are
-// predicted only a few steps ahead. With levels this is the step of joints, which contacts about to land leave as it is.
-double Solver::next_dt(double dt_now, bool levels) {
-  State& s = state_;
-  double allowed = !has_contacts_ ? s.time.dt_target : levels ? contacts_.joints_dt() : contacts_.bound().allowed_dt();
-  if (s.time.event_dt > 0) allowed = std::min(allowed, s.time.event_dt);
-  double dt = dt_now;
-  if (allowed < dt_now) {
+// The step `now` follows what is allowed. It shrinks at once. It grows after 100 steps without a limit, and by half at most, because
+// impacts are predicted only a few steps ahead. `steps`: since the last call; `since_limited` counts them.
+double Solver::next_dt(double now, double allowed, double event, Part part, int steps, int& since_limited) const {
+  if (event > 0) allowed = std::min(allowed, event);
+  double dt = now;
+  if (allowed < now) {
     dt = on_scale(0.95 * allowed);
-    s.time.steps_since_limited = 0;
-  } else if (dt_now < std::max(allowed, s.time.dt_target) && (s.time.steps_since_limited += s.time.substeps) > 100) {
-    if (allowed > 1.1 * dt_now) dt = std::min(on_scale(0.95 * allowed), 1.5 * dt_now);
-    if (!may_grow(dt_now, dt)) dt = dt_now;
-    s.time.steps_since_limited = 0;
+    since_limited = 0;
+  } else if (now < std::max(allowed, state_.time.dt_target) && (since_limited += steps) > 100) {
+    if (allowed > 1.1 * now) dt = std::min(on_scale(0.95 * allowed), 1.5 * now);
+    if (!may_grow(now, dt, part)) dt = now;
+    since_limited = 0;
   }
   return dt;
+}
+
+double Solver::next_dt_of_all() {
+  TimeStep& time = state_.time;
+  return next_dt(time.dt, has_contacts_ ? contacts_.bound().allowed_dt() : time.dt_target, time.event_dt, Part::all, time.substeps,
+                 time.steps_since_limited);
 }
 
 StepLimit Solver::limit() const {
   const TimeStep& time = state_.time;
   const double event = time.event_dt > 0 ? time.event_dt : std::numeric_limits<double>::infinity();
-  const bool levels = has_contacts_ && may_have_levels_;
-  if (levels && relisted_) return {StepLimit::By::growth, -1};  // nothing is known about the new pairs
-  if (levels && time.next_joint_level > 0) return contacts_.limit_of_pairs();
-  const double contacts = !has_contacts_ ? time.dt_target : levels ? contacts_.joints_dt() : contacts_.bound().allowed_dt();
-  if (std::min(event, contacts) > 1.2 * time.next_dt && time.next_dt < 0.9 * time.dt_target) return {StepLimit::By::growth, -1};
+  const bool split = has_contacts_ && contacts_.bound().is_split();
+  const double contacts = !has_contacts_ ? time.dt_target
+                          : split        ? contacts_.bound().allowed_dt(false)
+                                         : contacts_.bound().allowed_dt(),
+               dt = split ? time.fast_dt : time.next_dt;
+  if (std::min(event, contacts) > 1.2 * dt && dt < 0.9 * time.dt_target) return {StepLimit::By::growth, -1};
   if (event < std::min(contacts, time.dt_target)) return {StepLimit::By::event, -1};
-  return has_contacts_ && contacts != time.dt_target ? contacts_.bound().step_limit(levels) : StepLimit{};
+  return has_contacts_ && contacts != time.dt_target ? contacts_.bound().step_limit(split) : StepLimit{};
 }
 
 void Solver::set_dt(double dt) {
@@ -88,48 +100,30 @@ void Solver::set_dt(double dt) {
   time.start_step = time.step;
 }
 
-// Step and levels of the next macro step. Joints keep the interval `joints_dt`, and the step is a power of two below it, as short as any
-// pair asks for. All intervals thus stay as they are while the step varies: a change of an interval errs as a change of dt does
-// (`may_grow`). The step becomes shorter at once. It grows once no pair has asked for it for some steps, since a face that is about to land
-// asks in some steps only, and not once it touches. Nor may its pairs err by more than events may.
+// Step and number of steps of the next macro step (levels.h). Fast and loose blocks have a step each, by the same rule. The shorter one is
+// divided further, if need be, so that the longer one is a multiple of it; the cheapest number of steps counts.
 void Solver::plan_macro_step(const SamplePlan& plan) {
-  constexpr int quiet_steps = 64;  // before the step grows
+  constexpr double fast_share = 0.15;  // of the time of a whole step, for one in which slow pairs do not act
   TimeStep& time = state_.time;
-  if (may_have_levels_ && relisted_ && time.joints_dt > 0) {  // nothing is known about the new pairs
-    time.next_dt = time.dt;
-    time.next_joint_level = std::clamp(int(std::lround(std::log2(time.joints_dt / time.dt))), 0, model_.analysis.levels - 1);
-    time.next_substeps = 1 << time.next_joint_level;
+  const ContactBound& bound = contacts_.bound();
+  time.next_substeps = 1;
+  if (!has_contacts_ || !bound.is_split()) {
+    time.next_dt = next_dt_of_all();
+    time.fast_dt = time.slow_dt = 0;
     return;
   }
-  const bool choose = has_contacts_ && may_have_levels_;
-  if (choose) contacts_.find_pair_steps();
-  const int unlimited = time.steps_since_limited;
-  time.joints_dt = next_dt(time.joints_dt > 0 ? time.joints_dt : time.dt, choose);
-  time.next_dt = time.joints_dt;
-  time.next_substeps = 1;
-  const int last_level = std::exchange(time.next_joint_level, 0);
-  if (!choose) return;
-  const int highest = model_.analysis.levels - 1;
-  const double longest = contacts_.least_pair_dt();
-  double dt = time.joints_dt;
-  while (time.next_joint_level < highest && dt > longest) dt *= 0.5, ++time.next_joint_level;
-  if (dt > longest) {  // more levels would be needed
-    dt = on_scale(0.95 * longest);
-    time.joints_dt = (1 << time.next_joint_level) * dt;
-  }
-  if (time.next_joint_level > 0 && time.next_joint_level >= last_level) time.steps_since_limited = 0;
-  else if (time.steps_since_limited == unlimited) time.steps_since_limited += time.substeps;
-  if (time.next_joint_level < last_level && (time.steps_since_limited <= quiet_steps || !contacts_.may_act_every(dt))) {
-    dt /= 1 << (last_level - time.next_joint_level);
-    time.next_joint_level = last_level;
-  }
+  if (time.fast_dt == 0) time.fast_dt = time.slow_dt = time.dt, time.macro_steps_since_limited = 0;
+  time.fast_dt = next_dt(time.fast_dt, bound.allowed_dt(false), time.event_dt, Part::fast, time.substeps, time.steps_since_limited);
+  time.slow_dt = next_dt(time.slow_dt, bound.allowed_dt(true), time.slow_event_dt, Part::loose, 1, time.macro_steps_since_limited);
+  time.next_dt = std::min(time.fast_dt, time.slow_dt);
   // Samples are taken at the start of macro steps: none is left out, and the last one is at the end.
   const double left = plan.end - (time.t + (time.substeps - 1) * time.dt),
-               macro = std::min({left, 2 * macro_dt(time), plan.every * (1 + 1e-9)});
-  int most = highest;
-  while (most > time.next_joint_level && (1 << most) * dt > macro) --most;
-  time.next_dt = dt;
-  time.next_substeps = 1 << std::max(time.next_joint_level, contacts_.choose_levels(dt, most));
+               longest = std::min({time.slow_dt, left, plan.every * (1 + 1e-9)});
+  double least = 1 / time.next_dt;  // cost of a second
+  for (int steps = 2; steps <= 1 << (model_.analysis.contact_levels() - 1); ++steps) {
+    const double dt = std::min(time.fast_dt, longest / steps), cost = (1 + (steps - 1) * fast_share) / (steps * dt);
+    if (cost < least) least = cost, time.next_dt = dt, time.next_substeps = steps;
+  }
 }
 
 // Event rate (1/s) of intact dry joints that are about to open for the first time. The kernel of intact joints evaluates nothing but their
@@ -150,7 +144,7 @@ double Solver::event_rate_of_first_openings() const {
   }
   // The error of an opening falls with the square of the step: at dt it is some event_rate^2 of the allowance. A change of dt that costs
   // far more is left alone. Factors of 4 to 20 serve m02_hop and h14_overlap_from_nothing alike; 1 is too few for m02_hop.
-  if (event_rate > 1 && vibration() * dt * dt / 8 > 10 * event_rate * event_rate * allowance) return 0;
+  if (event_rate > 1 && vibration(Part::all) * dt * dt / 8 > 10 * event_rate * event_rate * allowance) return 0;
   return event_rate / dt;
 }
 
@@ -185,30 +179,32 @@ void Solver::foresee_events() {
     if (first > 0) state_.time.event_dt = state_.time.event_dt > 0 ? std::min(state_.time.event_dt, 1 / first) : 1 / first;
     return;
   }
-  event_rate = std::max(first, state_.time.since_joints > 0 ? event_rate / state_.time.since_joints : 0);
-  if (has_contacts_ && !may_have_levels_) event_rate = std::max(event_rate, contacts_.bound().event_rate());
+  event_rate = std::max(first, state_.time.last_dt > 0 ? event_rate / state_.time.last_dt : 0);
+  if (has_contacts_) event_rate = std::max(event_rate, contacts_.bound().event_rate(false));
   const double falls = (loads_.now().gravity - loads_.now().ground).norm() *
                        std::sqrt(ledger_.mass() / (8 * budget_));  // in flight the net force is the weight
-  if (event_rate > trembling * falls) event_rate = std::max(event_rate, falls);
-  state_.time.event_dt = event_rate > 0 ? 1 / event_rate : 0;
+  const auto step = [&](double rate) { return rate > 0 ? 1 / (rate > trembling * falls ? std::max(rate, falls) : rate) : 0; };
+  state_.time.event_dt = step(event_rate);
+  state_.time.slow_event_dt = has_contacts_ ? step(contacts_.bound().event_rate(true)) : 0;
 }
 
 // A change of dt changes the energy of a block that vibrates on its springs by F^2 (dt_1^2 - dt_0^2) / (8 m). A longer step is allowed
 // while the sum over all blocks stays within the event tolerance. A fragment that vibrates from its start keeps the step of
 // `event_rate_at_start` until it breaks or has struck something.
-bool Solver::may_grow(double from, double dt) const {
+bool Solver::may_grow(double from, double dt, Part part) const {
   const bool as_at_start = model_.njoint > 0 && !joints_.any_cracked() && state_.energy.contact_damping == 0;
   if (dt > from && model_.analysis.start == "rest" && as_at_start) return false;
   const double budget = event_tolerance * state_.energy.reference, more = (dt * dt - from * from) / 8;
   if (!(dt > from) || !(budget > 0) || model_.analysis.unstable || sequential_) return true;
-  return more * vibration() <= budget;
+  return more * vibration(part) <= budget;
 }
 
-// Sum over all blocks of F^2 / m, and of M^T I^-1 M for moments (J/s2).
-double Solver::vibration() const {
+// Sum over the blocks of a part of F^2 / m, and of M^T I^-1 M for moments (J/s2).
+double Solver::vibration(Part part) const {
   double sum = 0;
   for (int b = 0; b < model_.nblock; ++b) {
     if (model_.kind[z(b)] != Kind::moving) continue;
+    if (part != Part::all && contacts_.bound().loose(b, b) != (part == Part::loose)) continue;
     const Vec6 w = block_wrench(b) + load_wrench(b);
     const Vec3 f = w.head<3>() + model_.mass[z(b)] * weight_share(model_, b) * (loads_.now().gravity - loads_.now().ground);
     const Quat& q = state_.pose.q[z(b)];

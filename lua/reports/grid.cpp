@@ -28,7 +28,7 @@ constexpr double dt_fractions[] = {0.2, 0.5, 0.9};  // of dt_critical
 constexpr int point_numbers[] = {4, 9, 25};         // per joint
 constexpr double noise = 1e-8;                      // m and rad
 constexpr double family_fractions[] = {0.25, 0.5, 0.9};
-constexpr int level_numbers[] = {2, 4};  // of contacts, each at the step and the points of the scene
+constexpr int level_numbers[] = {1, 2};  // of contacts, each at the step and the points of the scene
 constexpr int draws = 100;               // draws of one combination until the scene accepts one
 
 struct Variant {
@@ -102,12 +102,12 @@ std::vector<Variant> family_of(const Case& scene, const SceneOptions& options, P
   return all;
 }
 
-// Contacts at levels of their own, where the scene has contacts and may have levels. One that names them keeps its own.
+// Other numbers of levels, where the scene may have any. One that names them keeps its own.
 void add_levels(std::vector<Variant>& all, const Case& scene, const Scene& s, const ParamFamily& family, const std::string& key) {
-  const std::vector<Effect> effects = effects_of(s);
-  const bool debris = s.analysis.debris && std::ranges::any_of(effects, [](const Effect& e) { return e.on && e.name == "debris contact"; });
-  const bool own = s.analysis.levels > 1 || std::ranges::any_of(family.values, [](const auto& list) { return list.first == "levels"; });
-  if (!debris || own || s.push.quasi_static() || one_level_only(s) != nullptr) return;
+  const bool may =
+      s.analysis.debris && std::ranges::any_of(effects_of(s), [](const Effect& e) { return e.on && e.name == "levels of contacts"; });
+  const bool own = s.analysis.levels > 0 || std::ranges::any_of(family.values, [](const auto& list) { return list.first == "levels"; });
+  if (!may || own || s.push.quasi_static()) return;
   for (const int levels : level_numbers)
     all.push_back(variant_of(scene, key, fmt::format("_levels{}", levels), fmt::format("{} levels", levels),
                              {"--noise", fmt::format("{:g}", noise), "--set", fmt::format("levels={}", levels)}));
@@ -283,7 +283,7 @@ void write_page(const Grid& grid, const TestCommand& command, double wall) {
       "0.2, 0.5 and 0.9 of the limit of the time step, with 4, 9 and 25 contact points per joint. Noise of {:g} (m, rad) in the initial "
       "state of every free block reveals instabilities that exact symmetry would hide. A scene with a fixed step keeps it; a scene without "
       "joints has no points to vary. A scene with a family runs at 0.25, 0.5 and 0.9 of the limit, and at its default step with each value "
-      "of the family and some combinations. Scenes with contacts run with 2 and 4 time levels too, unless they cannot have any. "
+      "of the family and some combinations. Scenes with joints and contacts run with 1 and 2 time levels too, unless they cannot have any. "
       "Each row is the worst value of one invariant over these runs.\n\n**{}**\n\n",
       fmt::join(command.words, " "), fs::proximate(command.book).generic_string(), duration_text(grid.cpu),
       wall > 0 ? fmt::format(", {} of wall-clock time", duration_text(wall)) : "", program_version(), noise, summary_of(grid));

@@ -1,6 +1,5 @@
 #include "lua/reports/profile_text.h"
 
-#include <numeric>
 #include <utility>
 
 #include "engine/base/error.h"
@@ -18,17 +17,15 @@ std::string profile_text(const analysis::RunOutcome& outcome) {
   for (const auto& [name, s] : rows) out += fmt::format("  {:<10} {:9.3f} s {:5.1f} %\n", name, s, percent(s));
   out += fmt::format("  {:<10} {:9.3f} s\n", "total", wall.total);
   const Profile& profile = outcome.profile;
-  if (profile.noted() == 0) return out;
+  if (profile.steps() == 0) return out;
   out += fmt::format("steps of {:.3g} us on average; what kept them from being longer, share of steps:\n", 1e6 * profile.mean_dt());
   for (const std::string& line : outcome.limits) out += "  " + line + "\n";
-  const auto& level = profile.evaluations();
-  const long all = std::accumulate(level.begin(), level.end(), 0L);
-  if (all == 0) return out;
-  out += fmt::format("{:.3g} pairs of blocks evaluated in a step, on average\n", double(all) / double(profile.noted()));
-  out += "pair evaluations by level, each twice the interval of the one before:\n ";
-  for (std::size_t l = 0; l < level.size(); ++l)
-    if (level[l] > 0) out += fmt::format(" {}: {:.1f} %", l, 100 * double(level[l]) / double(all));
-  return out + "\n";
+  const long all = profile.fast() + profile.slow();
+  if (all > 0) out += fmt::format("{:.3g} pairs of blocks evaluated in a step, on average\n", double(all) / double(profile.steps()));
+  if (profile.slow() > 0)
+    out += fmt::format("contacts of loose blocks act every {:.3g} us on average; {:.1f} % of all evaluations are theirs\n",
+                       1e6 * profile.mean_macro_dt(), 100 * double(profile.slow()) / double(all));
+  return out;
 }
 
 }  // namespace erbs::lua

@@ -1,7 +1,7 @@
--- P9: soft contacts at levels of their own beside a stiff wall.
+-- P9: soft contacts that act once in several steps, beside a stiff wall.
 --
 -- What happens   A plate slides over the ground and stops by friction, and another falls flat and bounces. Beside them stands
---                a pier whose stiff beds set the step. Contacts with the soft ground act every 1, 2, 4, ... steps, as their own stiffness
+--                a pier whose stiff beds set the step. Contacts with the soft ground act once in several steps, as their own stiffness
 --                allows.
 -- Source         Coulomb: v0^2 / (2 mu g). Newton's restitution: the plate returns e times the speed with which it strikes.
 -- How to run     erbs accuracy scenes/accuracy/p9_levels.lua [-D levels=1] [-D ratio=1e6]

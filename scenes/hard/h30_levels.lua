@@ -1,7 +1,7 @@
--- Hard case: a bonded fragment falls into soft debris beside a stiff wall, with contacts at levels of their own
+-- Hard case: a bonded fragment falls into soft debris beside a stiff wall, with two levels of time
 --
 -- What happens   Loose bricks lie in a heap against a wall of stiff mortar. A fragment of nine bonded bricks falls into them. Contacts of the
---                heap could act every 10 to 30 steps of the stiff joints; a pair on a block with joints acts as often as these.
+--                heap act once in several steps of the stiff joints; a pair on a block with joints acts as often as these.
 -- Source         Energy identity (engine/model/levels.h); impulses of slow springs resonate with fast modes where the interval comes near a
 --                multiple of half their period (Fong, Darve and Lew 2008). With levels = 1 all act in every step.
 -- How to run     erbs run scenes/hard/h30_levels.lua [-D levels=1] [-D debris=1e8] [-D bed=1e10]

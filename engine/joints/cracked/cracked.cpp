@@ -274,8 +274,8 @@ void Cracked::forces(int first, int last, bool sample, double budget, JointSums&
   const double* poses = pose_.data();
   double* wrench_rows = state_.cache.wrench.data();
   if (sample) sums.energy.elastic = 0;
-  const bool damped = model_.dashpots_cracked && state_.time.since_joints > 0;
-  const double per_step = damped ? 1 / state_.time.since_joints : 0;
+  const bool damped = model_.dashpots_cracked && state_.time.last_dt > 0;
+  const double per_step = damped ? 1 / state_.time.last_dt : 0;
   CrackedSums done{};
   const Interlock interlock = interlock_now(model_, state_);
   for (int g = first; g < last; ++g) {

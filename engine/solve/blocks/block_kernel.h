@@ -11,17 +11,14 @@ namespace erbs::ERBS_TARGET {
 // and loads.
 ERBS_INLINE void sum_wrenches(const KickDrift& s, const BlockArrays& A, const BlockConstants& c, int group, Pack out[6]) {
   const long first = 8L * pack_size * group;
-  const bool carried = c.carried && s.joints != 0;
-  const int wrench_slots = s.joints != 0 ? c.wrench_slots : 0;
+  const bool carried = c.carried;
   for (int i = 0; i < 6; ++i) out[i] = carried ? load(A.owner_sum[group].x[i]) : Pack(0);
   for (int k = c.first_gather; carried && k < c.first_gather + c.gathers; ++k) {
     Pack from_neighbours[6];
     gather(A.neighbour_force, A.gather_in[k], from_neighbours);
     for (int i = 0; i < 6; ++i) out[i] += from_neighbours[i];
   }
-  if (s.joints != 1 && carried)
-    for (int i = 0; i < 6; ++i) out[i] = s.joints * out[i];
-  if (A.contact_wrench == nullptr && A.load_wrench == nullptr && A.inertia == nullptr && wrench_slots == 0) return;
+  if (A.contact_wrench == nullptr && A.load_wrench == nullptr && A.inertia == nullptr && c.wrench_slots == 0) return;
   Pack rows[pack_size] = {}, sum[8];
   const auto add = [&](const double* row) {
     for (int l = 0; l < pack_size; ++l) rows[l] += load(row + 8 * l);
@@ -33,14 +30,7 @@ ERBS_INLINE void sum_wrenches(const KickDrift& s, const BlockArrays& A, const Bl
     const long b = 1L * pack_size * group + l;
     rows[l] += (A.load_since[b] + A.load_next[b]) / (2 * s.kick) * load(A.load_wrench + 8 * b);
   }
-  if (s.joints == 1) {
-    for (int k = 0; k < wrench_slots; ++k) add(A.wrench + 8L * pack_size * (c.first_wrench_slot + k));  // none where there are no rows
-  } else {
-    for (int k = 0; k < wrench_slots; ++k) {
-      const double* const row = A.wrench + 8L * pack_size * (c.first_wrench_slot + k);
-      for (int l = 0; l < pack_size; ++l) rows[l] += s.joints * load(row + 8 * l);
-    }
-  }
+  for (int k = 0; k < c.wrench_slots; ++k) add(A.wrench + 8L * pack_size * (c.first_wrench_slot + k));  // none where there are no rows
   transpose<8>(rows, sum);
   for (int i = 0; i < 6; ++i) out[i] += sum[i];
 }

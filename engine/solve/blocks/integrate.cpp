@@ -5,7 +5,6 @@
 #include <limits>
 
 #include "engine/model/joint_packs.h"
-#include "engine/model/levels.h"
 
 // Rotation: the implicit midpoint rule in the body frame conserves |L| and the energy exactly, since both are quadratic. The Cayley map of
 // the attitude conserves L in the world frame (Simo and Wong 1991, Int. J. Numer. Meth. Eng. 31, section 4, momentum form).
@@ -22,11 +21,7 @@ KickDrift kick_of(const Model& m, const State& s, const Excitation& e) {
   k.half_last = 0.5 * s.time.last_dt;
   k.half_next = 0.5 * s.time.dt;
   k.first = s.time.last_dt == 0;
-  // With one level all forces had the last step before this kick and have the next step after it; else joints have their own (levels.h).
-  const double since = s.time.since_joints, next = (1 << s.time.joint_level) * s.time.dt;
-  k.joints = joints_share(s.time);
-  k.more =
-      has_levels(s.time) ? (joints_act(s.time) && since + next > 0 ? 2 * since / (since + next) - 1 : 0) : 2 * k.half_last / k.kick - 1;
+  k.more = 2 * k.half_last / k.kick - 1;
   k.damping = m.damping.mass;
   k.local = m.local_damping;
   k.relaxes = k.damping > 0 || k.local > 0 || !m.gravity_factor.empty();

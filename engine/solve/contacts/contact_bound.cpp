@@ -1,8 +1,10 @@
 #include "engine/solve/contacts/contact_bound.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "engine/contact/law/impact_bound.h"
 #include "engine/model/levels.h"
@@ -29,18 +31,20 @@ void ContactBound::begin() {
     omega2_[z(b)] = sleep_.has_resting() ? sleep_.omega2(b) : 0;
     impact_omega2_[z(b)] = 0;
   }
-  event_rate_ = slip_omega2_ = 0;
+  part_[0] = part_[1] = Part{};
 }
 
-void ContactBound::end(const ContactForces& forces, FormerJoints& former, Sleep& sleep, MotionBounds& motion) {
+void ContactBound::end(const ContactForces& forces, FormerJoints& former, Sleep& sleep, MotionBounds& motion, bool divides) {
   double bears = limit();
   if (limit_.due(bears)) {
     motion.update_all(&sleep);
     update(forces, former, sleep);
     bears = limit();
   }
-  allowed_ = limited_by_slip(std::min(limit_.range().longest, bears));
-  limit_passing(forces, motion);
+  allowed_ = limited_by_passing(limited_by_slip(std::min(limit_.range().longest, bears)), forces, motion);
+  if (divides) divide(forces, former);
+  for (const bool loose : {false, true})
+    if (is_split()) part_[loose].dt = limited_by_passing(part_dt(loose, true), forces, motion);
 }
 
 // Updates the bound of `limit_`: it then contains the present rates of all contacts. Former joints count with the rates of their joints.
@@ -78,31 +82,24 @@ double ContactBound::stable_dt() const {
   return limited_by_slip(bears);
 }
 
-StepLimit ContactBound::step_limit(bool of_joints) const {
+StepLimit ContactBound::step_limit(bool of_fast) const {
   using enum StepLimit::By;
-  const double now = of_joints ? joints_dt() : allowed_;
-  if (now >= limit_.range().longest) return {};
-  const bool stiff_only = of_joints && any_stiff();
+  if ((of_fast ? allowed_dt(false) : allowed_) >= limit_.range().longest) return {};
   double most = 0;
   StepLimit out;
   for (int b = 0; b < model_.nblock; ++b) {
-    if (model_.kind[z(b)] != Kind::moving || (stiff_only && !stiff_[z(b)])) continue;
+    if (model_.kind[z(b)] != Kind::moving || (of_fast && loose(b, b))) continue;
     const double pressed = limit_.on_block(b, omega2_[z(b)], 0), all = limit_.on_block(b, omega2_[z(b)], impact_omega2_[z(b)]);
     if (all > most) most = all, out = {all > 1.2 * pressed ? impact : state_.topology.joined[z(b)] ? joints : contacts, b};
   }
-  if (of_joints) return out;
+  if (of_fast) return out;
   const double bears = std::min(limit_.range().longest, limit_.allowed(most));
   if (limited_by_slip(bears) < bears) out = {slip, -1};
   return allowed_ < 0.99 * limited_by_slip(bears) ? StepLimit{passing, -1} : out;
 }
 
-double ContactBound::limited_by_slip(double dt) const {
-  return slip_omega2_ > 0 ? std::min(dt, max_slip_omega_dt / std::sqrt(slip_omega2_)) : dt;
-}
-
-double ContactBound::limited_by_slip(const ContactForces::Force& force) {
-  const double omega2 = force.result.slip_omega2;
-  return omega2 > 0 ? max_slip_omega_dt / std::sqrt(omega2) : std::numeric_limits<double>::infinity();
+double ContactBound::limited_by_slip(double dt, double slip_omega2) {
+  return slip_omega2 > 0 ? std::min(dt, max_slip_omega_dt / std::sqrt(slip_omega2)) : dt;
 }
 
 void ContactBound::bound_elsewhere() {
@@ -116,56 +113,68 @@ void ContactBound::bound_elsewhere() {
   }
 }
 
-void ContactBound::find_stiff_blocks(const FormerJoints& former, const Sleep& sleep) {
-  stiff_ = state_.topology.joined;
-  for (const int i : sleep.live()) {
-    if (former.of_pair(i).joint < 0) continue;
-    const ContactPair& pair = state_.contacts.list.pair[z(i)];
-    stiff_[z(pair.a)] = stiff_[z(pair.b)] = 1;
+// Blocks with joints, or with a pair that is a former joint, are fast. A macro step of m steps leaves the others loose but for a few whose
+// contacts do not bear it; the m with the least evaluations of contacts counts. Where many contacts would be fast, a structure still
+// breaks: forces are large, and longer intervals would leave more in the ledger than they gain (tests/bench/README.md).
+void ContactBound::divide(const ContactForces& forces, const FormerJoints& former) {
+  constexpr double few_pairs = 0.05, many_pairs = 0.25, worth = 0.75;  // of all contacts; of the evaluations without levels
+  constexpr int most_steps = 8;
+  PairList& list = state_.contacts.list;
+  const double dt = state_.time.fast_dt > 0 ? state_.time.fast_dt : state_.time.dt;
+  std::vector<std::uint8_t> stiff(state_.topology.joined.begin(), state_.topology.joined.begin() + model_.nblock);
+  for (int i = 0; i < int(list.pair.size()); ++i)
+    if (former.of_pair(i).joint >= 0) stiff[z(list.pair[z(i)].a)] = stiff[z(list.pair[z(i)].b)] = 1;
+  bool any = false;
+  std::vector<int> bears(z(model_.nblock), most_steps);  // steps in a macro step
+  for (int b = 0; b < model_.nblock; ++b) {
+    if (model_.kind[z(b)] != Kind::moving) continue;  // supports limit no step
+    any = any || stiff[z(b)];
+    const double allowed = limit_.allowed(limit_.on_block(b, omega2_[z(b)], 0), false);
+    bears[z(b)] = stiff[z(b)] ? 0 : int(std::clamp(0.95 * allowed / dt, 1.0, 1.0 * most_steps));
   }
+  std::array<int, most_steps + 1> pairs{};  // by the steps that they bear
+  for (const ContactForces::ThreadPairs& found : forces.results())
+    for (const ContactForces::Force& one : found.forces) {
+      const ContactPair& pair = list.pair[z(one.pair)];
+      ++pairs[z(std::min(bears[z(pair.a)], bears[z(pair.b)]))];
+    }
+  const int all = std::accumulate(pairs.begin(), pairs.end(), 0);
+  list.fast.clear();
+  if (!any || pairs[0] > many_pairs * all) return;
+  double least = worth;
+  int best = 1, short_of = 0;
+  for (int m = 2; m <= most_steps; ++m) {
+    if ((short_of += pairs[z(m - 1)]) > few_pairs * all) break;
+    const double share = (all + double(m - 1) * (pairs[0] + short_of)) / (double(m) * all);
+    if (share < least) least = share, best = m;
+  }
+  if (best == 1) return;
+  for (const int steps : bears) list.fast.push_back(steps < best);
 }
 
-double ContactBound::joints_dt() const {
-  double stiff = 0, any = 0;
-  for (int b = 0; sleep_.has_resting() && b < model_.nblock; ++b)
-    if (sleep_.asleep(b)) any = std::max(any, limit_.on_block(b, omega2_[z(b)], 0));
-  for (const int b : sleep_.in_live_pairs()) {
-    if (model_.kind[z(b)] != Kind::moving) continue;
-    any = std::max(any, limit_.on_block(b, omega2_[z(b)], 0));
-    if (stiff_[z(b)]) stiff = std::max(stiff, limit_.on_block(b, omega2_[z(b)], impact_omega2_[z(b)]));
-  }
+double ContactBound::part_dt(bool loose, bool impacts) const {
+  double most = 0;
   for (int b = 0; b < model_.nblock; ++b)
-    if (stiff_[z(b)]) stiff = std::max(stiff, limit_.on_block(b, 0, 0));
-  return std::min(limit_.range().longest, limit_.allowed(any_stiff() ? stiff : any));
-}
-
-double ContactBound::pair_dt(const MotionBounds::PairBound& pair, double slip_omega2, double event_rate, double apart) const {
-  double rate = event_rate * event_rate;
-  for (const int b : {pair.a, pair.b})
-    if (model_.kind[z(b)] == Kind::moving)
-      rate = std::max(rate, (stiff_[z(b)] ? limit_.common() : 0) + limit_.on_block(b, omega2_[z(b)], impact_omega2_[z(b)]));
-  double dt = rate > 0 ? 1 / std::sqrt(rate) : std::numeric_limits<double>::infinity();
-  if (slip_omega2 > 0) dt = std::min(dt, max_slip_omega_dt / std::sqrt(slip_omega2));
-  const double speed = (bodies_.block[z(pair.a)].v - bodies_.block[z(pair.b)].v).norm();
-  const double thin = std::min(model_.smallest_edge[z(pair.a)], model_.smallest_edge[z(pair.b)]);
-  if (apart <= look_ahead * macro_dt(state_.time) * speed && speed * dt > 0.25 * thin) dt = 0.25 * thin / speed;
-  return dt;
+    if (model_.kind[z(b)] == Kind::moving && this->loose(b, b) == loose)
+      most = std::max(most, limit_.on_block(b, omega2_[z(b)], impacts ? impact_omega2_[z(b)] : 0));
+  return limited_by_slip(std::min(limit_.range().longest, limit_.allowed(most, !loose)), part_[loose].slip_omega2);
 }
 
 // No body may pass through another unseen: at most a quarter of the thinner body per step.
-void ContactBound::limit_passing(const ContactForces& forces, const MotionBounds& motion) {
-  if (motion.fastest_pair() * allowed_ <= 0.25 * (1 - MotionBounds::round_off) * thinnest_) return;
+double ContactBound::limited_by_passing(double dt, const ContactForces& forces, const MotionBounds& motion) const {
+  if (motion.fastest_pair() * dt <= 0.25 * (1 - MotionBounds::round_off) * thinnest_) return dt;
   const double soon = look_ahead * std::max(macro_dt(state_.time), state_.time.last_dt);
   const auto pass = [&](int i, double apart) {
     const MotionBounds::PairBound& pair = motion.pair(i);
     const double thin = std::min(model_.smallest_edge[z(pair.a)], model_.smallest_edge[z(pair.b)]);
     const double speed = (bodies_.block[z(pair.a)].v - bodies_.block[z(pair.b)].v).norm();
-    if (apart <= soon * speed && speed * allowed_ > 0.25 * thin) allowed_ = 0.25 * thin / speed;
+    if (apart <= soon * speed && speed * dt > 0.25 * thin) dt = 0.25 * thin / speed;
   };
   for (const ContactForces::ThreadPairs& found : forces.results()) {
     for (const ContactForces::Force& one : found.forces) pass(one.pair, one.result.apart);
     for (const ContactForces::SeparatedPair& one : found.separated) pass(one.pair, one.apart);
   }
+  return dt;
 }
 
 }  // namespace erbs

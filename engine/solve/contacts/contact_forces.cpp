@@ -33,9 +33,9 @@ void ContactForces::list_pairs() {
   changed_ = true;
   edge_known_.assign(state_.contacts.list.pair.size(), 0);
   edge_.resize(state_.contacts.list.pair.size());
-  level_.clear(), next_level_.clear();
+  slow_.clear();
   while (batch_.size() < room_.size()) batch_.push_back(std::make_unique<PairBatch>());
-  for (const ContactPair& p : state_.contacts.list.pair) level_.push_back(p.level), next_level_.push_back(p.next_level);
+  for (const ContactPair& p : state_.contacts.list.pair) slow_.push_back(p.slow);
 }
 
 void ContactForces::prepare() {
@@ -44,43 +44,32 @@ void ContactForces::prepare() {
 
 void ContactForces::set(double budget, const Interlock& interlock) {
   settings_.event_budget = budget, settings_.interlock = interlock;
-  settings_.horizon =
-      has_levels(state_.time) ? 3 * macro_dt(state_.time) : 0;  // this macro step and the next, which is twice as long at most
+  settings_.horizon = has_levels(state_.time) ? 3 * macro_dt(state_.time) : 0;  // this macro step and the next, twice as long at most
 }
 
-PairInterval ContactForces::interval(int level) const {
+PairInterval ContactForces::interval(bool slow) const {
   const TimeStep& time = state_.time;
-  return {level > 0 ? (1 << level) * time.last_dt : time.last_dt, time.last_dt, has_levels(time) ? macro_dt(time) : time.last_dt,
-          level > 0};
+  return {interval_before(time, slow), time.last_dt, has_levels(time) ? macro_dt(time) : time.last_dt, slow && time.last_substeps > 1};
 }
 
 // The mean pressure is updated over the interval of the pair.
-ContactSettings ContactForces::settings_of(int level) const {
+ContactSettings ContactForces::settings_of(bool slow) const {
   ContactSettings settings = settings_;
   double& rate = settings.interlock.rate;
-  if (level > 0 && rate > 0) rate = (1 << level) * rate / (1 + ((1 << level) - 1) * rate);
+  const int steps = slow ? state_.time.last_substeps : 1;
+  if (steps > 1 && rate > 0) rate = steps * rate / (1 + (steps - 1) * rate);
   return settings;
-}
-
-double ContactForces::start_level(int i) {
-  const TimeStep& time = state_.time;
-  std::uint8_t &now = level_[z(i)], next = next_level_[z(i)];
-  if (now == 0 && next == 0) return 1;
-  const double factor = ((1 << now) * time.last_dt + (1 << next) * time.dt) / (time.last_dt + time.dt);
-  if (now != next) state_.contacts.list.pair[z(i)].level = now = next;
-  return factor;
 }
 
 void ContactForces::book_after_kick(std::span<const int> live) {
   const TimeStep& time = state_.time;
-  if (time.substep == 0) return;
+  if (time.substep != 1) return;
   for (const int i : live) {
-    const int level = level_[z(i)];
-    if (level == 0 || !acts(level, time.substep - 1)) continue;
+    if (!slow(i)) continue;
     const ContactPair& pair = state_.contacts.list.pair[z(i)];
     if (!pair.touching) continue;
     const ContactBlock &a = bodies_.block[z(pair.a)], &b = bodies_.block[z(pair.b)];
-    const double half = 0.5 * (1 << level) * time.dt;
+    const double half = 0.5 * interval_after(time, true);
     state_.energy.friction -= half * power(pair.friction, a, b);
     state_.energy.contact_damping -= half * power(pair.damping, a, b);
   }
@@ -105,10 +94,9 @@ void ContactForces::find_due(ThreadPairs& found, std::span<const int> mine) {
   found.at.clear(), found.forces.clear(), found.separated.clear();
   found.at.resize(mine.size());
   std::size_t due = 0, stay = 0;
-  const int substep = state_.time.substep;
   for (const int i : mine) {  // without a branch: the sequence of due pairs has no pattern
     found.at[due] = i;
-    due += unsigned(!motion_.waits(i)) & unsigned(acts(level_[z(i)], substep));
+    due += unsigned(!motion_.waits(i));
   }
   for (std::size_t k = 0; k < due; ++k) {
     const int i = found.at[k];
@@ -123,8 +111,8 @@ bool ContactForces::evaluate_one(int i, bool sample, OverlapRoom& room, PairResu
   ContactPair& pair = state_.contacts.list.pair[z(i)];
   const MotionBounds::PairBound& known = motion_.pair(i);
   const ContactBlock &a = bodies_.block[z(known.a)], &b = bodies_.block[z(known.b)];
-  const PairInterval interval = this->interval(level_[z(i)]);
-  const ContactSettings settings = settings_of(level_[z(i)]);
+  const PairInterval interval = this->interval(slow(i));
+  const ContactSettings settings = settings_of(slow(i));
   PairCache& cache = cache_[z(i)];
   if (const double way = idle(i); way > 0) {
     motion_.note_separation(i, r.apart = way);
@@ -154,10 +142,10 @@ void ContactForces::evaluate(int thread, std::span<const int> live, bool sample)
     PairTask task[pairs_per_batch];
     int at[pairs_per_batch], count = 0;
   };
-  Collected of_level[most_levels];  // pairs of one level have one interval
-  const auto evaluate_batch = [&](int level) {
-    Collected& w = of_level[level];
-    const unsigned left_out = pair_forces(w.task, w.count, settings_of(level), interval(level), sample, batch);
+  Collected of_pace[2];  // fast and slow pairs: those of one kind have one interval
+  const auto evaluate_batch = [&](bool slow) {
+    Collected& w = of_pace[slow];
+    const unsigned left_out = pair_forces(w.task, w.count, settings_of(slow), interval(slow), sample, batch);
     for (int l = 0; l < w.count; ++l)
       if ((left_out >> l & 1u) != 0) evaluate_one(w.at[l], sample, room, *w.task[l].result);
     w.count = 0;
@@ -173,19 +161,20 @@ void ContactForces::evaluate(int thread, std::span<const int> live, bool sample)
     if (cache.fits) {
       found.forces.push_back({i, {}});
       const ContactBlock &a = bodies_.block[z(known.a)], &b = bodies_.block[z(known.b)];
-      Collected& w = of_level[level_[z(i)]];
+      Collected& w = of_pace[slow(i)];
       w.task[w.count] = {&pair, cache.bodies, &a, &b, &found.forces.back().result, contact_count(known.a, known.b)};
       w.at[w.count++] = i;
-      if (w.count == pairs_per_batch) evaluate_batch(level_[z(i)]);
+      if (w.count == pairs_per_batch) evaluate_batch(slow(i));
       continue;
     }
     PairResult r;
     if (evaluate_one(i, sample, room, r)) found.forces.push_back({i, r});
     else found.separated.push_back({i, r.apart, r.impact_omega2_a, r.impact_omega2_b, r.event_rate});
   }
-  for (int level = 0; level < most_levels; ++level)
-    if (of_level[level].count > 0) evaluate_batch(level);
-  if (at_macro_step(state_.time)) foresee_touching(found);
+  for (const bool slow : {false, true})
+    if (of_pace[slow].count > 0) evaluate_batch(slow);
+  if (!at_macro_step(state_.time)) return;
+  foresee_touching(found);
   note_cost(found, std::chrono::duration<double>(Clock::now() - began).count());
 }
 

@@ -38,17 +38,9 @@ class ContactForces {
   void evaluate(int thread, std::span<const int> live, bool sample);
   // Books the work of friction and dashpots of slow pairs, from their kick in the last step to their next one.
   void book_after_kick(std::span<const int> live);
-  // Levels of pairs (model/levels.h).
-  int level(int i) const { return level_[std::size_t(i)]; }
-  // Times its force per step: impulse of pair i at the start of a macro step. The pair then has its next level.
-  double start_level(int i);
-  void set_next_level(int i, int level) {
-    state_.contacts.list.pair[std::size_t(i)].next_level = next_level_[std::size_t(i)] = std::uint8_t(level);
-  }
-  void rest_at_level(int i, int level) {  // a pair between sleepers
-    set_next_level(i, level);
-    state_.contacts.list.pair[std::size_t(i)].level = level_[std::size_t(i)] = std::uint8_t(level);
-  }
+  // Slow pairs act once in a macro step (model/levels.h).
+  bool slow(int i) const { return slow_[std::size_t(i)] != 0; }
+  void set_slow(int i, bool slow) { state_.contacts.list.pair[std::size_t(i)].slow = slow_[std::size_t(i)] = std::uint8_t(slow); }
   void balance_threads();  // for the next step
   std::span<const ThreadPairs> results() const { return thread_pairs_; }
   const ContactSettings& settings() const { return settings_; }
@@ -59,8 +51,8 @@ class ContactForces {
   void foresee_touching(ThreadPairs& found);
   static void note_cost(ThreadPairs& found, double seconds);
   double idle(int i);
-  PairInterval interval(int level) const;
-  ContactSettings settings_of(int level) const;
+  PairInterval interval(bool slow) const;
+  ContactSettings settings_of(bool slow) const;
   double contact_count(int a, int b) const;  // number of contacts for the dashpots of `pair_force()`
 
   struct PairCache {
@@ -74,7 +66,7 @@ class ContactForces {
   ContactSettings settings_;
   std::vector<PairCache> cache_;  // per pair, data that a step reads first
   bool changed_ = true;
-  std::vector<std::uint8_t> level_, next_level_;   // per pair, as in `ContactPair`
+  std::vector<std::uint8_t> slow_;                 // per pair, as in `ContactPair`
   std::vector<std::uint8_t> edge_known_;           // per pair: found once it is asked for
   std::vector<EdgeAtRest> edge_;                   // per pair
   std::vector<int> first_pair_;                    // first pair of each thread; balances their times

@@ -14,6 +14,7 @@
 namespace erbs {
 namespace {
 
+constexpr int divide_every = 64;  // macro steps between two divisions of the blocks by the step that they bear
 std::size_t z(int i) { return std::size_t(i); }
 
 }  // namespace
@@ -27,7 +28,8 @@ Contacts::Contacts(const Model& model, State& state, const StepRange& range, int
       forces_(state, bodies_, motion_, threads),
       sleep_(model, state),
       bound_(model, state, range, bodies_, sleep_),
-      block_levels_(model, state) {
+      block_levels_(model, state),
+      may_have_levels_(may_have_levels(model)) {
   PairList& list = state.contacts.list;
   if (list.start.empty()) {
     list.start.reserve(state.pose.u.size());
@@ -103,7 +105,11 @@ void Contacts::prepare(double budget, const Interlock& interlock) {
 void Contacts::prepare_substep(const Interlock& interlock) {
   forces_.set(0, interlock);
   motion_.prepare_substep(involved_, unsorted_);
-  if (unsorted_) sort();  // in a resumed run
+  if (unsorted_) {  // in a resumed run, or after a release at the start of this macro step
+    sort();
+    list_fast_pairs();
+    block_levels_.resume(blocks_with_slow_pair());
+  }
   forces_.book_after_kick(sleep_.live());
   forces_.prepare();
 }
@@ -217,12 +223,12 @@ void Contacts::add_up(const ContactForces::ThreadPairs& found, double* contact_w
 void Contacts::add_kick(const ContactForces::Force& one, double* kick, bool sample) {
   const MotionBounds::PairBound& pair = motion_.pair(one.pair);
   const TimeStep& time = state_.time;
-  const double since = (1 << forces_.level(one.pair)) * time.last_dt, share = forces_.start_level(one.pair);
+  const double since = interval_before(time, forces_.slow(one.pair)),
+               next = interval_after(time, time.substeps > 1 && bound_.loose(pair.a, pair.b)),
+               share = (since + next) / (time.last_dt + time.dt);
   add_wrench(kick, z(pair.a), z(pair.b), one.result.wrench, share);
   if (!sample) return;
-  // s, of the kick that `book()` extrapolates to the last interval of joints
-  const double next = (1 << time.joint_level) * time.dt,
-               used = share * time.since_joints / (time.since_joints + next) * (time.last_dt + time.dt);
+  const double used = share * time.last_dt;  // s, of the kick that `book()` extrapolates to the last step
   kinetic_correction_ += 0.5 * (since - used) * power(one.result.wrench, bodies_.block[z(pair.a)], bodies_.block[z(pair.b)]);
 }
 
@@ -243,23 +249,48 @@ void Contacts::gather(double* contact_wrench, double* kick, bool sample) {
   }
   start_rows(contact_wrench);
   for (const int b : sleep_.in_live_pairs()) count[z(b)] = rested ? sleep_.contacts(b) : 0;
-  if (kick) std::copy_n(contact_wrench, 8 * z(model_.nblock), kick), block_levels_.start(sleep_.live());
+  if (kick) std::copy_n(contact_wrench, 8 * z(model_.nblock), kick);
   bound_.begin();
   touching_ = sleep_.touching();
   kinetic_correction_ = 0;
   if (sample) elastic_ = sleep_.elastic();
   for (const ContactForces::ThreadPairs& found : forces_.results()) add_up(found, contact_wrench, kick, sample);
-  for (std::size_t k = 0; kick && k < sleep_.live().size(); ++k) forces_.start_level(sleep_.live()[k]);  // pairs without a force too
+  if (kick) start_macro_step();
   for (const int b : sleep_.in_live_pairs())
     if (model_.kind[z(b)] != Kind::moving) count[z(b)] = 0;                         // no limit for dashpots on a fixed or driven block
     else if (state_.topology.joined[z(b)]) count[z(b)] += int(saturated_contacts);  // joints use up this block's share
   forces_.balance_threads();
-  bound_.end(forces_, former_, sleep_, motion_);
+  bound_.end(forces_, former_, sleep_, motion_, may_have_levels_ && state_.time.macro % divide_every == 0);
+}
+
+std::vector<std::uint8_t> Contacts::blocks_with_slow_pair() const {
+  std::vector<std::uint8_t> out(z(model_.nblock), 0);
+  for (int i = 0; i < int(state_.contacts.list.pair.size()); ++i)
+    if (forces_.slow(i)) out[z(motion_.pair(i).a)] = out[z(motion_.pair(i).b)] = 1;
+  return out;
+}
+
+void Contacts::list_fast_pairs() {
+  fast_.clear();
+  for (const int i : sleep_.live())
+    if (!forces_.slow(i)) fast_.push_back(i);
+}
+
+// Pairs become slow or fast for this macro step.
+void Contacts::start_macro_step() {
+  const std::vector<std::uint8_t> was_slow = blocks_with_slow_pair();
+  for (int i = 0; i < int(state_.contacts.list.pair.size()); ++i) {
+    const MotionBounds::PairBound& pair = motion_.pair(i);
+    const bool slow = state_.time.substeps > 1 && bound_.loose(pair.a, pair.b);
+    if (slow != forces_.slow(i)) forces_.set_slow(i, slow);
+  }
+  block_levels_.start_macro_step(was_slow, blocks_with_slow_pair());
+  list_fast_pairs();
 }
 
 void Contacts::gather_substep(double* kick) {
-  block_levels_.substep(sleep_.live(), relisted_);
-  if (std::exchange(relisted_, false)) {  // after a resumption within a macro step
+  block_levels_.substep();
+  if (std::exchange(relisted_, false)) {  // after a resumption within a macro step, or a release at its start
     if (sleep_.has_resting()) std::copy_n(sleep_.resting_wrench(0), 8 * z(model_.nblock), kick);
     else std::fill_n(kick, 8 * z(model_.nblock), 0.0);
   }
@@ -269,7 +300,7 @@ void Contacts::gather_substep(double* kick) {
     for (const ContactForces::Force& one : found.forces) {
       const MotionBounds::PairBound& pair = motion_.pair(one.pair);
       const PairResult& r = one.result;
-      add_wrench(kick, z(pair.a), z(pair.b), r.wrench, 1 << forces_.level(one.pair));
+      add_wrench(kick, z(pair.a), z(pair.b), r.wrench, 1);
       state_.energy.friction += r.friction;
       state_.energy.contact_damping += r.damping;
       touched_ += r.touching;

@@ -33,23 +33,14 @@ class Contacts {
   // The same within a macro step (model/levels.h): the list of pairs stays.
   void prepare_substep(const Interlock& interlock);
   // Forces of this thread's pairs. Afterwards `gather()` sums them on one thread, in the order of the pairs.
-  void forces(int thread, bool sample) { forces_.evaluate(thread, sleep_.live(), sample); }
-  // At the start of a macro step; `kick`: the same, each pair times its impulse over that of a step, null without levels.
+  void forces(int thread, bool sample) { forces_.evaluate(thread, at_macro_step(state_.time) ? sleep_.live() : fast_, sample); }
+  // At the start of a macro step; `kick`: the same, each pair times its impulse over that of a step, null without levels
+  // (model/levels.h). Pairs then become slow or fast for this macro step.
   void gather(double* contact_wrench, double* kick, bool sample);
-  void gather_substep(double* kick);  // within a macro step: of the pairs that act in this step
-  // Intervals that pairs allow, from the evaluation at the start of this macro step; then the least one, and that of joints (s).
-  void find_pair_steps();
-  double least_pair_dt() const { return least_pair_dt_; }
-  double joints_dt() const { return joints_dt_; }
-  // True if no pair with a shorter interval would err by more than the tolerance of events, were it to act once in `dt` (s).
-  bool may_act_every(double dt) const;
-  // Chooses the levels of all pairs for the next macro step of steps `dt` (s), at most `most`. Returns the highest one.
-  int choose_levels(double dt, int most);
-  void reset_levels();                                               // all pairs act in the next step again
+  void gather_substep(double* kick);                                 // within a macro step: of the pairs that act in this step
   const BlockLevels& block_levels() const { return block_levels_; }  // of loads
   // J, of the sample: kinetic energy is that of the last interval of each pair, the kick may be for another one.
   double kinetic_correction() const { return kinetic_correction_; }
-  bool joints_are_ready(const Cracked& cracked) const { return !cracked.none_ready_for_contact() && !ready_joints(cracked).empty(); }
   // Releases joints without bond and beyond their range (`joint_ready_for_contact()`) to contact and returns them. Called between forces
   // and drift: this step still has the wrench and stored energy of the joint, the next step has those of the contact.
   std::vector<int> release_joints(Cracked& cracked);
@@ -64,12 +55,9 @@ class Contacts {
   FormerJoints& former_joints() { return former_; }
   double elastic() const { return elastic_; }  // J, stored in contacts at the last sample
   int touching() const { return touching_; }
-  long slept() const { return sleep_.slept(); }                // steps of sleeping blocks, since the start of this Solver
-  long touched() const { return touched_; }                    // touching pairs, summed over the steps of this Solver
-  double searched() const { return searched_; }                // s, spent on searches by this Solver
-  StepLimit limit_of_pairs() const { return least_limit_; }    // what limits `least_pair_dt()`
-  std::array<long, most_levels> evaluations_by_level() const;  // of pairs in this macro step
-
+  long slept() const { return sleep_.slept(); }  // steps of sleeping blocks, since the start of this Solver
+  long touched() const { return touched_; }      // touching pairs, summed over the steps of this Solver
+  double searched() const { return searched_; }  // s, spent on searches by this Solver
  private:
   void initialise();
   void list_involved();
@@ -79,11 +67,9 @@ class Contacts {
   void sort();
   void find_still();
   void add_up(const ContactForces::ThreadPairs& found, double* contact_wrench, double* kick, bool sample);
-  double relative_speed(int a, int b) const;
-  double accurate_dt(int i) const;
-  bool strikes(int i) const;
-  std::vector<double> steady_dt_of_heaps() const;
-  static int level_of(double allowed, double dt, int most, int now);
+  void start_macro_step();
+  std::vector<std::uint8_t> blocks_with_slow_pair() const;
+  void list_fast_pairs();
   void add_kick(const ContactForces::Force& force, double* kick, bool sample);
   void start_rows(double* rows) const;
   std::vector<int> ready_joints(const Cracked& cracked) const;
@@ -97,20 +83,13 @@ class Contacts {
   Sleep sleep_;
   ContactBound bound_;
   BlockLevels block_levels_;
+  std::vector<int> fast_;               // live pairs that act in every step, within a macro step
   std::vector<int> involved_;           // blocks that are loose or listed in a pair
   std::vector<std::uint64_t> jointed_;  // pairs of blocks that still have a joint, sorted
   std::vector<std::uint8_t> still_;     // sleepers with the pose of the last search [nblock]; empty without sleepers
+  const bool may_have_levels_;
   bool relisted_ = true, unsorted_ = true;
   double elastic_ = 0, kinetic_correction_ = 0;
-  // Interval that each evaluated pair allows, and the energy by which a longer one errs over its square.
-  struct PairStep {
-    int pair;
-    double allowed, steady, change;  // s; s, without events; J/s2
-    bool rests;                      // between sleepers
-  };
-  std::vector<PairStep> pair_dt_;
-  double least_pair_dt_ = 0, joints_dt_ = 0;
-  StepLimit least_limit_;
   int touching_ = 0;
   long touched_ = 0;
   double searched_ = 0;

@@ -180,8 +180,8 @@ double ContactLimit::common() const {
   return list.bound_updates > 0 ? list.bound_at_last_update : intact();
 }
 
-double ContactLimit::allowed(double most) const {
-  const double bound = 1 / (shorter() * std::sqrt(common() + most));
+double ContactLimit::allowed(double most, bool common) const {
+  const double bound = 1 / (shorter() * std::sqrt((common ? this->common() : 0) + most));
   // Beyond the step that the run requested, its requested share of the limit still applies.
   const double share =
       std::isfinite(range_.critical) ? std::min(1.0, shorter() * state_.time.dt_target / range_.critical / safe_share) : 1.0;

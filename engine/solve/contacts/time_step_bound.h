@@ -38,8 +38,8 @@ class ContactLimit {
   double common() const;  // 1/s2, the share of the structure that is common to all blocks
   // The greatest share among moving `blocks`; `omega2` and `impact_omega2` of each block of the model [nblock].
   double on_most(std::span<const int> blocks, std::span<const double> omega2, std::span<const double> impact_omega2) const;
-  // s, time step allowed if the greatest share is `most`.
-  double allowed(double most) const;
+  // s, time step allowed if the greatest share is `most`. `common`: of blocks that share in the structure, else of loose ones.
+  double allowed(double most, bool common = true) const;
   // True if the bound needs an update; `allowed` (s) is the step that it allows now.
   bool due(double allowed) const;
   // Updates the bound with joints and present contacts. Former joints count as the joints they replaced. `scalars` (1/s2): sum of the rates

@@ -97,7 +97,7 @@ metric("points", "", function(run) return run.contact_points end)
   CHECK(contains(text_of(at("grid.md")), "it walks"));
   std::vector<std::string> again = words;
   again.emplace_back("--resume");
-  CHECK(std::filesystem::exists(bench.folder / "out/stack/run_levels4/metrics.json"));
+  CHECK(std::filesystem::exists(bench.folder / "out/stack/run_levels2/metrics.json"));
   CHECK_FALSE(std::filesystem::exists(bench.folder / "out/fixed/run_levels4/metrics.json"));  // a block alone touches nothing
   const auto made = std::filesystem::last_write_time(bench.folder / "out/stack/run_dt0.2_p4/metrics.json");
   CHECK(bench.erbs(again) == 4);
