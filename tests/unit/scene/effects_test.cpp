@@ -45,11 +45,10 @@ TEST_CASE("each effect names the line that called for it", "[scene]") {
 }
 
 TEST_CASE("debris sleeps where the scene says so, and there is any", "[scene][sleep]") {
-  const std::string apart = "box{ name = 'c', size = {1, 1, 1}, at = {5, 0, 0}, free = true }\n",
-                    two = apart + "joint{ law = dry{ kn = 1e9, mu = .6 } }\n";
+  const std::string two = "box{ name = 'c', size = {1, 1, 1}, at = {5, 0, 0}, free = true }\n";
   CHECK(why(scene_of(two), "sleep of debris").empty());
   Scene scene = scene_of(two + "analysis{ duration = 1, sleep = true }\n");
-  CHECK(why(scene, "sleep of debris") == Place{scene.file, 8}.text());
+  CHECK(why(scene, "sleep of debris") == Place{scene.file, 7}.text());
   Scene without = scene;
   switch_off(without, "sleep of debris");
   CHECK(why(without, "sleep of debris").empty());
@@ -69,11 +68,12 @@ TEST_CASE("a block alone calls for no contact, a rule of none for no joint", "[s
 }
 
 TEST_CASE("contacts have levels where joints may keep the step short and the solver knows them", "[scene][levels]") {
-  const std::string two = "box{ name = 'c', size = {1, 1, 1}, at = {5, 0, 0}, free = true }\n";
+  const std::string apart = "box{ name = 'c', size = {1, 1, 1}, at = {5, 0, 0}, free = true }\n",
+                    two = apart + "joint{ law = dry{ kn = 1e9, mu = .6 } }\n";
   CHECK(why(scene_of(two), "levels of contacts") == "by default");
   CHECK(why(scene_of(apart), "levels of contacts").empty());
   Scene scene = scene_of(two + "analysis{ duration = 1, levels = 4 }\n");
-  CHECK(why(scene, "levels of contacts") == Place{scene.file, 7}.text());
+  CHECK(why(scene, "levels of contacts") == Place{scene.file, 8}.text());
   CHECK(one_level_only(scene) == nullptr);
   Scene without = scene;
   switch_off(without, "levels of contacts");
