@@ -1,11 +1,12 @@
 // Two levels of time while blocks with joints keep the step short: contacts between other blocks act once in several steps (impulse
 // multiple time stepping, Verlet-I or r-RESPA: Grubmueller, Heller, Windemuth and Schulten 1991; Tuckerman, Berne and Martyna 1992).
 //
-// A macro step of `TimeStep::substeps` steps begins with an evaluation of all interactions. Joints act in every step, and so do pairs with a
-// fast block: one that has a joint or a former joint, or whose contacts bear no longer step (`ContactBound::divide`). A pair of two other,
-// loose blocks is slow: it acts at the start of the macro step, with the impulse of all its steps. Loads and ground motion act on a block
-// together with its slow pairs, else in every step (block_levels.h). Where an interval changes, the impulse has the mean of the last and the
-// next interval, as the kick of the integrator has. With one step in a macro step this is the integrator of integrate.h to the last bit.
+// A macro step of `TimeStep::substeps` steps begins with an evaluation of all interactions. Joints act in every step, and so do pairs with
+// a fast block: one that has a joint or a former joint, or whose contacts bear no longer step (`ContactBound::divide`). A pair of two
+// other, loose blocks is slow: it acts at the start of the macro step, with the impulse of all its steps. Loads and ground motion act on a
+// block together with its slow pairs, else in every step (block_levels.h). Where an interval changes, the impulse has the mean of the last
+// and the next interval, as the kick of the integrator has. With one step in a macro step this is the integrator of integrate.h to the last
+// bit.
 //
 // Work. A kick J changes the kinetic energy by J (v- + v+) / 2. So the second half of the work of friction and dashpots is booked with the
 // velocity right after the kick (`ContactForces::book_after_kick`). Elastic energy is a function of the pose. What is left in the ledger is
