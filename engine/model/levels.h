@@ -30,6 +30,8 @@ inline bool may_have_levels(const Model& model) {
   return model.analysis.contact_levels() > 1 && !model.analysis.unstable && model.analysis.solver == "leapfrog" && owner_computes(model) &&
          !model.dashpots;
 }
+inline constexpr int divide_every = 64;  // macro steps between two divisions of the blocks by the step that they bear
+inline bool divides(const TimeStep& time) { return time.macro % divide_every == 0 && time.macro_steps_since_limited >= 0; }
 // True in a step in which all interactions act.
 inline bool at_macro_step(const TimeStep& time) { return time.substep == 0; }
 // True if this macro step, or the one before, has more than one step.

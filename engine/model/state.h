@@ -66,7 +66,7 @@ struct TimeStep {
   double next_dt = 0;                 // s, of the steps of the next macro step
   double fast_dt = 0, slow_dt = 0;    // s, that fast and loose blocks bear; 0: the blocks are not divided
   double slow_event_dt = 0;           // s, step of loose blocks allowed by the next openings and closings of slow pairs; 0: any
-  int macro_steps_since_limited = 0;  // macro steps since slow pairs last limited them
+  int macro_steps_since_limited = 0;  // macro steps since slow pairs last limited them; below 0: to wait
 };
 
 // Arrays of blocks are [nblock + 1]; the last is a block at rest, for unused lanes.

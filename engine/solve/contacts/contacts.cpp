@@ -14,7 +14,6 @@
 namespace erbs {
 namespace {
 
-constexpr int divide_every = 64;  // macro steps between two divisions of the blocks by the step that they bear
 std::size_t z(int i) { return std::size_t(i); }
 
 }  // namespace
@@ -260,7 +259,7 @@ void Contacts::gather(double* contact_wrench, double* kick, bool sample) {
     if (model_.kind[z(b)] != Kind::moving) count[z(b)] = 0;                         // no limit for dashpots on a fixed or driven block
     else if (state_.topology.joined[z(b)]) count[z(b)] += int(saturated_contacts);  // joints use up this block's share
   forces_.balance_threads();
-  bound_.end(forces_, former_, sleep_, motion_, may_have_levels_ && state_.time.macro % divide_every == 0);
+  bound_.end(forces_, former_, sleep_, motion_, may_have_levels_ && divides(state_.time));
 }
 
 std::vector<std::uint8_t> Contacts::blocks_with_slow_pair() const {

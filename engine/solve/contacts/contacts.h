@@ -39,6 +39,7 @@ class Contacts {
   void gather(double* contact_wrench, double* kick, bool sample);
   void gather_substep(double* kick);                                 // within a macro step: of the pairs that act in this step
   const BlockLevels& block_levels() const { return block_levels_; }  // of loads
+  void join_parts() { state_.contacts.list.fast.clear(); }           // all pairs act in every step of the next macro step
   // J, of the sample: kinetic energy is that of the last interval of each pair, the kick may be for another one.
   double kinetic_correction() const { return kinetic_correction_; }
   // Releases joints without bond and beyond their range (`joint_ready_for_contact()`) to contact and returns them. Called between forces
