@@ -32,6 +32,8 @@ inline bool may_have_levels(const Model& model) {
 }
 inline constexpr int divide_every = 64;  // macro steps between two divisions of the blocks by the step that they bear
 inline bool divides(const TimeStep& time) { return time.macro % divide_every == 0 && time.macro_steps_since_limited >= 0; }
+// Steps in a macro step at most.
+inline int most_steps(const Model& model) { return 1 << (model.analysis.contact_levels() - 1); }
 // True in a step in which all interactions act.
 inline bool at_macro_step(const TimeStep& time) { return time.substep == 0; }
 // True if this macro step, or the one before, has more than one step.

@@ -37,6 +37,6 @@ joint { law = mortar { kn = bed, ks = 0.4 * bed, ft = ft, c = 1.5 * ft, mu = 0.6
 joint { law = dry { kn = bed, mu = 0.6 } , between = { "wall", "ground" } }
 gravity(g)
 analysis { duration = 1, start = "rest", levels = levels }
-expect("energy.residual_relative", 2e-3, { below = true, source = "ledger" })
+expect("energy.residual_relative", 5e-4, { below = true, source = "ledger; 1.7e-4 at most over the family" })
 expect("max_penetration_relative", 0.15, { below = true, source = "no block sinks into another" })
 expect("momentum_residual", 1e-8, { below = true, source = "joints and contacts conserve momentum" })

@@ -20,7 +20,6 @@ class BlockLevels {
   void start_macro_step(std::span<const std::uint8_t> was_slow, std::vector<std::uint8_t> slow);
   void resume(std::vector<std::uint8_t> slow) { slow_ = std::move(slow); }
   void substep();  // in the other steps of a macro step
-  std::span<const std::uint8_t> slow() const { return slow_; }
   // s, half the impulse of a load over its force: the parts before and after this kick; zero where loads do not act [whole groups]
   const double* since() const { return since_.data(); }
   const double* next() const { return next_.data(); }

@@ -118,21 +118,22 @@ void ContactBound::bound_elsewhere() {
 // breaks: forces are large, and longer intervals would leave more in the ledger than they gain (tests/bench/README.md).
 void ContactBound::divide(const ContactForces& forces, const FormerJoints& former) {
   constexpr double few_pairs = 0.05, many_pairs = 0.25, worth = 0.75;  // of all contacts; of the evaluations without levels
-  constexpr int most_steps = 8;
+  constexpr int worth_asking = 16;                                     // steps; more gain little
+  const int most = std::min(worth_asking, most_steps(model_));
   PairList& list = state_.contacts.list;
   const double dt = state_.time.fast_dt > 0 ? state_.time.fast_dt : state_.time.dt;
   std::vector<std::uint8_t> stiff(state_.topology.joined.begin(), state_.topology.joined.begin() + model_.nblock);
   for (int i = 0; i < int(list.pair.size()); ++i)
     if (former.of_pair(i).joint >= 0) stiff[z(list.pair[z(i)].a)] = stiff[z(list.pair[z(i)].b)] = 1;
   bool any = false;
-  std::vector<int> bears(z(model_.nblock), most_steps);  // steps in a macro step
+  std::vector<int> bears(z(model_.nblock), most);  // steps in a macro step
   for (int b = 0; b < model_.nblock; ++b) {
     if (model_.kind[z(b)] != Kind::moving) continue;  // supports limit no step
     any = any || stiff[z(b)];
     const double allowed = limit_.allowed(limit_.on_block(b, omega2_[z(b)], 0), false);
-    bears[z(b)] = stiff[z(b)] ? 0 : int(std::clamp(0.95 * allowed / dt, 1.0, 1.0 * most_steps));
+    bears[z(b)] = stiff[z(b)] ? 0 : int(std::clamp(0.95 * allowed / dt, 1.0, 1.0 * most));
   }
-  std::array<int, most_steps + 1> pairs{};  // by the steps that they bear
+  std::array<int, worth_asking + 1> pairs{};  // by the steps that they bear
   for (const ContactForces::ThreadPairs& found : forces.results())
     for (const ContactForces::Force& one : found.forces) {
       const ContactPair& pair = list.pair[z(one.pair)];
@@ -143,7 +144,7 @@ void ContactBound::divide(const ContactForces& forces, const FormerJoints& forme
   if (!any || pairs[0] > many_pairs * all) return;
   double least = worth;
   int best = 1, short_of = 0;
-  for (int m = 2; m <= most_steps; ++m) {
+  for (int m = 2; m <= most; ++m) {
     if ((short_of += pairs[z(m - 1)]) > few_pairs * all) break;
     const double share = (all + double(m - 1) * (pairs[0] + short_of)) / (double(m) * all);
     if (share < least) least = share, best = m;

@@ -277,13 +277,15 @@ void Contacts::list_fast_pairs() {
 
 // Pairs become slow or fast for this macro step.
 void Contacts::start_macro_step() {
-  const std::vector<std::uint8_t> was_slow = blocks_with_slow_pair();
+  std::vector<std::uint8_t> was_slow(z(model_.nblock), 0), is_slow = was_slow;
   for (int i = 0; i < int(state_.contacts.list.pair.size()); ++i) {
     const MotionBounds::PairBound& pair = motion_.pair(i);
     const bool slow = state_.time.substeps > 1 && bound_.loose(pair.a, pair.b);
+    if (forces_.slow(i)) was_slow[z(pair.a)] = was_slow[z(pair.b)] = 1;
+    if (slow) is_slow[z(pair.a)] = is_slow[z(pair.b)] = 1;
     if (slow != forces_.slow(i)) forces_.set_slow(i, slow);
   }
-  block_levels_.start_macro_step(was_slow, blocks_with_slow_pair());
+  block_levels_.start_macro_step(was_slow, std::move(is_slow));
   list_fast_pairs();
 }
 
