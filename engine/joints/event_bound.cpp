@@ -9,8 +9,8 @@ double event_budget(const Model& m, const State& s) { return s.time.step % fores
 
 double event_allowance(const Model& m, const State& s) {
   if (m.analysis.unstable || m.analysis.solver == "sequential") return 0;
-  const double many = std::clamp(std::sqrt(s.topology.unjoined / 16.0), 1.0, most_for_many);
-  const double sum = m.njoint > few_joints ? blow_sum : event_sum;
+  const double many = std::clamp(std::sqrt(double(s.topology.unjoined) / few_loose), 1.0, most_for_many);
+  const double sum = m.njoint > few_joints ? blow_sum : has_many_events(m, s) ? rain_sum : event_sum;
   const double used = std::fabs(s.energy.event_residual) / (many * sum * s.energy.reference);
   return many * event_tolerance * s.energy.reference * std::max(0.01, 1 - used);
 }

@@ -24,16 +24,21 @@ inline constexpr double event_sum = 5e-4;
 // A blow of a structure of many joints is a thousand events within some hundred steps. Each errs by far less than it may, but faces that
 // meet lose more than faces that part gain, since friction and dashpots act in between: of a storey that falls on its walls 1.3 of 700 J
 // that it dissipates. So there the residual of the last steps counts, which fades: the step is shorter until the blow has passed, and then
-// no longer.
-inline constexpr double blow_sum = 1e-4;         // share of `Energy::reference`
-inline constexpr double recent_share = 7.0 / 8;  // of `Energy::event_residual` that each step of the ledger leaves
-inline constexpr int few_joints = 16;            // in a structure of more joints the first opening of one is no significant event
+// no longer. In a rain of loose bricks all blows come at once, and half as much is allowed.
+inline constexpr double blow_sum = 1e-4, rain_sum = 5e-5;  // shares of `Energy::reference`
+inline constexpr double recent_share = 7.0 / 8;            // of `Energy::event_residual` that each step of the ledger leaves
+inline constexpr int few_joints = 16;  // in a structure of more joints the first opening of one is no significant event
+inline constexpr int few_loose = 16;   // blocks; the blows of more are a rain
 
-// With many loose blocks each impact is a smaller part of the whole, and the tolerance is that of a collapse, 1e-2. From 16 loose blocks on
-// both shares grow with the square root of their number, up to this factor. A pile of 300 then takes 4 % more steps than without any bound,
+// With many loose blocks each impact is a smaller part of the whole, and the tolerance is that of a collapse, 1e-2. From `few_loose` blocks
+// on both shares grow with the square root of their number, up to this factor. A pile of 300 then takes 4 % more steps than without any bound,
 // instead of 21 %, and its ledger closes to 5e-4, instead of 4e-3.
 inline constexpr double most_for_many = 4;
 
+// True where the residual of the last steps counts, not that of the whole run.
+inline bool has_many_events(const Model& model, const State& state) {
+  return model.njoint > few_joints || state.topology.unjoined > few_loose;
+}
 // J, error allowed to one event now; 0: unlimited.
 double event_allowance(const Model& model, const State& state);
 // The same; also 0 in a step without prediction.

@@ -127,12 +127,12 @@ void Ledger::close(std::span<JointSums> joints, std::span<JointSums> cracked, st
   const double residual_before = e.residual;
   settle(e, events || state_.time.start_step > 0 ? std::max(floor_, lift_) : floor_, state_.time.t, worst);
   // Closings at the rows of a run add up to the same.
-  const bool many_joints = model_.njoint > few_joints;
-  if (many_joints) e.event_residual = (due_ ? recent_share : 1) * (e.event_residual + (e.residual - residual_before));
+  const bool many = has_many_events(model_, state_);
+  if (many) e.event_residual = (due_ ? recent_share : 1) * (e.event_residual + (e.residual - residual_before));
   if (!due_) return;
   const double loss = e.friction + e.fracture + e.crushing + e.damping + e.contact_damping;
   e.reference = std::max(e.reference, std::fabs(e.kinetic) + std::fabs(e.elastic - e.elastic_at_start) + std::max(0.0, loss));
-  if (!many_joints) e.event_residual = e.residual;
+  if (!many) e.event_residual = e.residual;
 }
 
 }  // namespace erbs
