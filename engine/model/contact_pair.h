@@ -75,12 +75,13 @@ struct alignas(64) ContactPair {
 };
 
 struct PairList {
-  std::vector<ContactPair> pair;  // sorted by (a, b, part_a, part_b)
-  double margin = 0.01;           // m, parts closer than this are listed
-  bool valid = false;             // false after blocks came loose or joints were released: the next search then runs
-  std::vector<Vec3> start;        // m, displacement of each block at the start of the run [nblock]
-  std::vector<Vec3> u;            // m, pose of each block at the last search [nblock]
-  std::vector<Mat3> rotation;     //                                          [nblock]
+  std::vector<ContactPair> pair, spare;  // sorted by (a, b, part_a, part_b); room for the next list: new memory would be slow
+  double margin = 0.01;                  // m, parts closer than this are listed
+  bool valid = false;                    // false after blocks came loose or joints were released: the next search then runs
+  std::vector<Vec3> start;               // m, displacement of each block at the start of the run [nblock]
+  std::vector<Vec3> u;                   // m, pose of each block at the last search [nblock]
+  std::vector<Mat3> rotation;            //                                          [nblock]
+  std::vector<double> travel;            // m, that each block may travel after it before parts farther than the margin may meet  [nblock]
   long searches = 0;
   std::vector<int> contact_count;  // number on each moving block in the last step; a jointed block counts as saturated [nblock]
   // bound of the time step (time_step_bound.h)
@@ -137,7 +138,7 @@ template <class P, class F>
 requires std::is_same_v<std::remove_const_t<P>, PairList>
 void each(P& p, F&& f) {
   f("pair", p.pair), f("margin", p.margin), f("valid", p.valid), f("start", p.start), f("u", p.u), f("rotation", p.rotation),
-      f("searches", p.searches);
+      f("travel", p.travel), f("searches", p.searches);
   f("contact_count", p.contact_count), f("bound_at_last_update", p.bound_at_last_update), f("block_bounds", p.block_bounds),
       f("bound_updates", p.bound_updates), f("bound_updated_at", p.bound_updated_at), f("by_blocks", p.by_blocks), f("fast", p.fast);
 }

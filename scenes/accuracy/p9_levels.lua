@@ -8,6 +8,7 @@
 -- What to look at  metrics.slide, and metrics.rebound, over the ratio of the stiffnesses and over the number of levels (scenes/accuracy)
 local ratio = param("ratio", 1e4, "stiffness of the beds over that of the ground")
 local levels = param("levels", 6, "time levels of contacts")
+accuracy { param = "levels", name = "levels of contacts", values = { 6, 5, 4, 3, 2, 1 } }
 local soft = param("soft", 1e8, "normal stiffness of contacts [Pa/m]")
 local mu, e, v0, fall = 0.5, 0.5, 1, 0.05
 material { name = "stone", density = 1800, friction = mu, restitution = e, kn = soft, ks = 0.4 * soft }

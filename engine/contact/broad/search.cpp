@@ -71,8 +71,15 @@ Grid make_grid(const std::vector<OrientedBox>& parts, double margin) {
   return g;
 }
 
-// Boxes around the parts, and around where they may be within the time `ahead` (s).
-std::vector<OrientedBox> oriented_boxes(const ContactShapes& shapes, std::span<const ContactBlock> blocks, double ahead) {
+// m, distance of the farthest point of all parts of block b from its centroid.
+double reach_of(const ContactShapes& shapes, size_t b) {
+  double reach = 0;
+  for (int s = shapes.first[b]; s < shapes.first[b + 1]; ++s) reach = std::max(reach, shapes.part(at(s)).reach);
+  return reach;
+}
+
+// Boxes around the parts, and around where they are after a `travel` (m) of their blocks.
+std::vector<OrientedBox> oriented_boxes(const ContactShapes& shapes, std::span<const ContactBlock> blocks, std::span<const double> travel) {
   std::vector<OrientedBox> parts(shapes.of.size());
   for (size_t i = 0; i < parts.size(); ++i) {
     const ContactBlock& b = blocks[at(shapes.block[i])];
@@ -81,9 +88,9 @@ std::vector<OrientedBox> oriented_boxes(const ContactShapes& shapes, std::span<c
     const Vec3 centre = (b.rest - blocks[0].rest) + b.u + b.rotation * shape.centre;
     std::copy_n(centre.data(), 3, parts[i].centre);
     std::copy_n(b.rotation.data(), 9, parts[i].rotation);
-    const double travel = ahead * (b.v.norm() + b.w.norm() * shape.reach);
-    for (int k = 0; k < 3; ++k) parts[i].half[k] = shape.half[k] + travel;
-    parts[i].radius = shape.radius + std::sqrt(3.0) * travel;
+    const double way = travel[at(shapes.block[i])];
+    for (int k = 0; k < 3; ++k) parts[i].half[k] = shape.half[k] + way;
+    parts[i].radius = shape.radius + std::sqrt(3.0) * way;
   }
   return parts;
 }
@@ -92,13 +99,13 @@ std::vector<OrientedBox> oriented_boxes(const ContactShapes& shapes, std::span<c
 class Finder {
  public:
   Finder(const PairList& list, const ContactShapes& shapes, std::span<const ContactBlock> blocks, std::span<const std::uint8_t> loose,
-         std::span<const std::uint64_t> excluded, double ahead)
+         std::span<const std::uint64_t> excluded)
       : margin_(list.margin),
         shapes_(shapes),
         blocks_(blocks),
         loose_(loose),
         excluded_(excluded),
-        parts_(oriented_boxes(shapes, blocks, ahead)) {}
+        parts_(oriented_boxes(shapes, blocks, list.travel)) {}
 
   std::vector<Found> find() {
     const Grid grid = make_grid(parts_, margin_);
@@ -215,7 +222,7 @@ double suggested_margin(std::vector<double> t) {
 
 bool needs_search(const PairList& list, const ContactShapes& shapes, std::span<const ContactBlock> blocks,
                   std::span<const std::uint8_t> still) {
-  if (!list.valid || list.u.size() != blocks.size()) return true;
+  if (!list.valid || list.u.size() != blocks.size() || list.travel.size() != blocks.size()) return true;
   // The motion of two bodies towards each other does not contain the common motion of all bodies.
   Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity()), high = -low;
   const auto is_still = [&](size_t b) { return !still.empty() && still[b] != 0; };
@@ -226,14 +233,11 @@ bool needs_search(const PairList& list, const ContactShapes& shapes, std::span<c
   for (size_t b = 0; b < blocks.size(); ++b) {
     const Vec3 moved = come(b);
     double rotated = 0;
-    if (!is_still(b)) {
-      double reach = 0;
-      for (int s = shapes.first[b]; s < shapes.first[b + 1]; ++s) reach = std::max(reach, shapes.part(at(s)).reach);
-      // R - R0| (Frobenius) is 2 sqrt 2 sin(angle / 2); the chord of the farthest point is reach times that / sqrt 2.
-      rotated = reach * std::sqrt(0.5) * (blocks[b].rotation - list.rotation[b]).norm();
-    }
-    all.take(moved.norm() + rotated);
-    apart.take((moved - together).norm() + rotated);
+    // |R - R0| (Frobenius) is 2 sqrt 2 sin(angle / 2); the chord of the farthest point is reach times that / sqrt 2.
+    if (!is_still(b)) rotated = reach_of(shapes, b) * std::sqrt(0.5) * (blocks[b].rotation - list.rotation[b]).norm();
+    const double foreseen = 0.5 * list.travel[b];
+    all.take(std::max(0.0, moved.norm() + rotated - foreseen));
+    apart.take(std::max(0.0, (moved - together).norm() + rotated - foreseen));
   }
   // half the margin: this test runs every few steps only, and a pair listed late would begin inside the other block
   return !(std::min(all.two(), apart.two()) <= 0.5 * list.margin);
@@ -242,12 +246,21 @@ bool needs_search(const PairList& list, const ContactShapes& shapes, std::span<c
 double search(PairList& list, const ContactShapes& shapes, std::span<const ContactBlock> blocks, std::span<const std::uint8_t> loose,
               std::span<const std::uint64_t> excluded, const std::function<PairLaw(int a, int b)>& law, double ahead,
               std::span<const std::uint8_t> still, std::vector<int>* fresh) {
+  const bool known = list.u.size() == blocks.size() && list.travel.size() == blocks.size() && still.size() == blocks.size();
+  list.travel.resize(blocks.size());
+  list.u.resize(blocks.size());
+  list.rotation.resize(blocks.size());
+  for (size_t b = 0; b < blocks.size(); ++b) {
+    if (known && still[b]) continue;
+    list.u[b] = blocks[b].u;
+    list.rotation[b] = blocks[b].rotation;
+    list.travel[b] = ahead * (blocks[b].v.norm() + blocks[b].w.norm() * reach_of(shapes, b));
+  }
   std::vector<std::uint8_t> looking(loose.begin(), loose.end());
   for (size_t b = 0; b < still.size(); ++b) looking[b] = looking[b] && !still[b];
-  const std::vector<Found> found =
-      shapes.shape.empty() ? std::vector<Found>{} : Finder(list, shapes, blocks, looking, excluded, ahead).find();
-  std::vector<ContactPair> now;
-  now.reserve(found.size());
+  const std::vector<Found> found = shapes.shape.empty() ? std::vector<Found>{} : Finder(list, shapes, blocks, looking, excluded).find();
+  std::vector<ContactPair>& now = list.spare;
+  now.clear();
   double dropped = 0;
   double restitution = std::numeric_limits<double>::quiet_NaN(), impact = 0;  // of the last new pair; most pairs have the same
   auto old = list.pair.begin();
@@ -268,13 +281,7 @@ double search(PairList& list, const ContactShapes& shapes, std::span<const Conta
     now.push_back(new_pair(f.a, f.part_a, f.b, f.part_b, of, impact, shapes));
   }
   for (; old != list.pair.end(); ++old) leave(*old);
-  list.pair = std::move(now);
-  list.u.resize(blocks.size());
-  list.rotation.resize(blocks.size());
-  for (size_t b = 0; b < blocks.size(); ++b) {
-    list.u[b] = blocks[b].u;
-    list.rotation[b] = blocks[b].rotation;
-  }
+  std::swap(list.pair, now);
   list.valid = true;
   ++list.searches;
   return dropped;

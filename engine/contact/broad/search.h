@@ -15,14 +15,17 @@ inline std::uint64_t pair_key(int a, int b) { return static_cast<std::uint64_t>(
 // A tenth of the median thickness of the parts (m).
 double suggested_margin(std::vector<double> thickness);
 
-// True if two bodies may have come closer than the list allows. `still`: 1 for each block with the pose of the last search; empty: unknown.
+// True if two bodies may have come closer than the list allows: half the margin together, beyond half of what each may travel
+// (`PairList::travel`). `still`: 1 for each block with the pose of the last search; empty: unknown.
 bool needs_search(const PairList& list, const ContactShapes& shapes, std::span<const ContactBlock> blocks,
                   std::span<const std::uint8_t> still = {});
 
-// Lists every pair of parts closer than the margin, or that may be so within the time `ahead` (s), of which at least one block is loose.
+// Lists every pair of parts closer than the margin, or that may be so within the time `ahead` (s) at their speed, of which at least one
+// block is loose. So blocks that fall fast among others at rest do not make each search outdated.
 // Pairs of blocks with a `pair_key()` in `excluded` (sorted) and pairs that cannot move are left out. Listed pairs that remain keep their
 // memory. Returns the energy in the friction springs of dropped pairs (J, to be booked as reset). Blocks that are `still` do not search but
-// can be found; pairs among them, or of one with a block that is not loose, stay listed. `fresh` receives the indices of new pairs.
+// can be found; pairs among them, or of one with a block that is not loose, stay listed, and their motion counts from their own last
+// search. `fresh` receives the indices of new pairs.
 double search(PairList& list, const ContactShapes& shapes, std::span<const ContactBlock> blocks, std::span<const std::uint8_t> loose,
               std::span<const std::uint64_t> excluded, const std::function<PairLaw(int a, int b)>& law, double ahead = 0,
               std::span<const std::uint8_t> still = {}, std::vector<int>* fresh = nullptr);

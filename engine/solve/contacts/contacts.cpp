@@ -132,9 +132,11 @@ std::vector<int> Contacts::search_pairs(double& reset, std::span<const std::uint
   using Clock = std::chrono::steady_clock;
   const Clock::time_point began = Clock::now();
   std::vector<int> fresh;
-  // A blow is predicted once its pair is evaluated, look_ahead steps before it (`MotionBounds`), in one step of foresee_every. A pair that
-  // is listed later meets it at whatever step there is.
-  const double ahead = (1.5 * look_ahead + foresee_every) * std::max(macro_dt(state_.time), state_.time.last_dt);
+  // The list then lasts for half of these steps at least. A blow is predicted once its pair is evaluated, look_ahead steps before it
+  // (`MotionBounds`), in one step of foresee_every. A pair that is listed later meets it at whatever step there is.
+  constexpr double steps = 128;
+  static_assert(steps / 2 > 1.5 * look_ahead + foresee_every);
+  const double ahead = steps * std::max(macro_dt(state_.time), state_.time.last_dt);
   reset += search(
       state_.contacts.list, bodies_.shapes, bodies_.block, state_.topology.loose, jointed_,
       [this](int a, int b) { return bodies_.law(a, b); }, ahead, still, &fresh);
@@ -349,9 +351,13 @@ std::vector<int> Contacts::release_joints(Cracked& cracked) {
   list_involved();
   // All poses, because the last update depends on when this run was started or resumed.
   motion_.update_all(nullptr);
-  state_.contacts.list.valid = false;
+  // Only the blocks of these joints have new neighbours, unless a search of all is due.
+  std::vector<std::uint8_t> others(state_.contacts.list.valid ? z(model_.nblock) : 0, 1);
+  for (const int j : released)
+    for (const int b : {model_.joint[z(j)].a, model_.joint[z(j)].b})
+      if (!others.empty()) others[z(b)] = 0;
   double reset = 0;
-  std::vector<int> fresh = search_pairs(reset, {});
+  std::vector<int> fresh = search_pairs(reset, others);
   former_.add_reset(reset);
   former_.release(released);
   std::erase_if(fresh, [this](int i) { return state_.contacts.list.pair[z(i)].former_joint != 0; });
