@@ -18,7 +18,7 @@ class BlockLevels {
   BlockLevels(const Model& model, const State& state) : model_(model), state_(state) {}
   // Blocks with a slow pair [nblock]: in the last macro step and in this one, which starts; or after a resumption within it.
   void start_macro_step(std::span<const std::uint8_t> was_slow, std::vector<std::uint8_t> slow);
-  void resume(std::vector<std::uint8_t> slow) { slow_ = std::move(slow); }
+  void resume(std::vector<std::uint8_t> slow) { slow_ = std::move(slow), within_ = false; }
   void substep();  // in the other steps of a macro step
   // s, half the impulse of a load over its force: the parts before and after this kick; zero where loads do not act [whole groups]
   const double* since() const { return since_.data(); }
@@ -29,6 +29,7 @@ class BlockLevels {
   const State& state_;
   std::vector<std::uint8_t> slow_;
   std::vector<double> since_, next_;  // s
+  bool within_ = false;               // they are those of the other steps of this macro step
 };
 
 }  // namespace erbs

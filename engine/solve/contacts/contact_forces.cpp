@@ -64,14 +64,18 @@ ContactSettings ContactForces::settings_of(bool slow) const {
 void ContactForces::book_after_kick(std::span<const int> live) {
   const TimeStep& time = state_.time;
   if (time.substep != 1) return;
+  const double half = 0.5 * interval_after(time, true);
   for (const int i : live) {
     if (!slow(i)) continue;
     const ContactPair& pair = state_.contacts.list.pair[z(i)];
     if (!pair.touching) continue;
-    const ContactBlock &a = bodies_.block[z(pair.a)], &b = bodies_.block[z(pair.b)];
-    const double half = 0.5 * interval_after(time, true);
-    state_.energy.friction -= half * power(pair.friction, a, b);
-    state_.energy.contact_damping -= half * power(pair.damping, a, b);
+    const BlockVec3 &v = state_.motion.v, &w = state_.motion.w;
+    const Vec3 speed = Vec3(v[z(pair.b)]) - Vec3(v[z(pair.a)]), spin_a = w[z(pair.a)], spin_b = w[z(pair.b)];
+    const auto work = [&](const PairWrench& of) {
+      return half * (of.force.dot(speed) + of.moment_a.dot(spin_a) + of.moment_b.dot(spin_b));
+    };
+    state_.energy.friction -= work(pair.friction);
+    state_.energy.contact_damping -= work(pair.damping);
   }
 }
 

@@ -103,12 +103,13 @@ void Contacts::prepare(double budget, const Interlock& interlock) {
 
 void Contacts::prepare_substep(const Interlock& interlock) {
   forces_.set(0, interlock);
-  motion_.prepare_substep(involved_, unsorted_);
   if (unsorted_) {  // in a resumed run, or after a release at the start of this macro step
+    motion_.place(involved_);
     sort();
     list_fast_pairs();
     block_levels_.resume(blocks_with_slow_pair());
   }
+  motion_.prepare_substep();
   forces_.book_after_kick(sleep_.live());
   forces_.prepare();
 }
@@ -233,9 +234,9 @@ void Contacts::add_kick(const ContactForces::Force& one, double* kick, bool samp
   kinetic_correction_ += 0.5 * (since - used) * power(one.result.wrench, bodies_.block[z(pair.a)], bodies_.block[z(pair.b)]);
 }
 
-void Contacts::start_rows(double* rows) const {
+void Contacts::start_rows(std::span<const int> blocks, double* rows) const {
   const bool rested = sleep_.has_resting();
-  for (const int b : sleep_.in_live_pairs()) {
+  for (const int b : blocks) {
     if (rested) std::copy_n(sleep_.resting_wrench(b), 8, rows + 8 * b);
     else std::fill_n(rows + 8 * b, 8, 0.0);
   }
@@ -248,7 +249,7 @@ void Contacts::gather(double* contact_wrench, double* kick, bool sample) {
     if (rested) std::copy_n(sleep_.resting_wrench(0), 8 * z(model_.nblock), contact_wrench);
     else std::fill_n(contact_wrench, 8 * z(model_.nblock), 0.0);
   }
-  start_rows(contact_wrench);
+  start_rows(sleep_.in_live_pairs(), contact_wrench);
   for (const int b : sleep_.in_live_pairs()) count[z(b)] = rested ? sleep_.contacts(b) : 0;
   if (kick) std::copy_n(contact_wrench, 8 * z(model_.nblock), kick);
   bound_.begin();
@@ -275,6 +276,11 @@ void Contacts::list_fast_pairs() {
   fast_.clear();
   for (const int i : sleep_.live())
     if (!forces_.slow(i)) fast_.push_back(i);
+  motion_.select_fast(fast_);
+  fast_blocks_.clear();
+  for (const int i : fast_) fast_blocks_.push_back(motion_.pair(i).a), fast_blocks_.push_back(motion_.pair(i).b);
+  std::ranges::sort(fast_blocks_);
+  fast_blocks_.erase(std::unique(fast_blocks_.begin(), fast_blocks_.end()), fast_blocks_.end());
 }
 
 // Pairs become slow or fast for this macro step.
@@ -293,11 +299,13 @@ void Contacts::start_macro_step() {
 
 void Contacts::gather_substep(double* kick) {
   block_levels_.substep();
-  if (std::exchange(relisted_, false)) {  // after a resumption within a macro step, or a release at its start
+  const bool relisted = std::exchange(relisted_, false);
+  if (relisted) {  // after a resumption within a macro step, or a release at its start
     if (sleep_.has_resting()) std::copy_n(sleep_.resting_wrench(0), 8 * z(model_.nblock), kick);
     else std::fill_n(kick, 8 * z(model_.nblock), 0.0);
   }
-  start_rows(kick);
+  // The other blocks keep the rows of the first step: none but fast pairs acts.
+  start_rows(relisted || state_.time.substep == 1 ? std::span<const int>(sleep_.in_live_pairs()) : fast_blocks_, kick);
   const double* const edge = model_.smallest_edge.data();
   for (const ContactForces::ThreadPairs& found : forces_.results())
     for (const ContactForces::Force& one : found.forces) {

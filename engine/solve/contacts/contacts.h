@@ -50,7 +50,7 @@ class Contacts {
   // Afterwards: puts blocks to sleep and wakes sleepers (`sleep.h`). True if the set of sleepers has changed.
   bool sleep(const Excitation& now, const double* contact_wrench);
   // Updates the poses of blocks [first, last) after their drift; each thread has its own range.
-  void track(int thread, int first, int last) { motion_.track(thread, first, last); }
+  void track(int thread, int first, int last) { motion_.track(thread, first, last, state_.time.substep + 1 < state_.time.substeps); }
 
   const ContactBound& bound() const { return bound_; }
   FormerJoints& former_joints() { return former_; }
@@ -72,7 +72,7 @@ class Contacts {
   std::vector<std::uint8_t> blocks_with_slow_pair() const;
   void list_fast_pairs();
   void add_kick(const ContactForces::Force& force, double* kick, bool sample);
-  void start_rows(double* rows) const;
+  void start_rows(std::span<const int> blocks, double* rows) const;
   std::vector<int> ready_joints(const Cracked& cracked) const;
 
   const Model& model_;
@@ -84,10 +84,10 @@ class Contacts {
   Sleep sleep_;
   ContactBound bound_;
   BlockLevels block_levels_;
-  std::vector<int> fast_;               // live pairs that act in every step, within a macro step
-  std::vector<int> involved_;           // blocks that are loose or listed in a pair
-  std::vector<std::uint64_t> jointed_;  // pairs of blocks that still have a joint, sorted
-  std::vector<std::uint8_t> still_;     // sleepers with the pose of the last search [nblock]; empty without sleepers
+  std::vector<int> fast_, fast_blocks_;  // live pairs that act in every step, within a macro step, and their blocks
+  std::vector<int> involved_;            // blocks that are loose or listed in a pair
+  std::vector<std::uint64_t> jointed_;   // pairs of blocks that still have a joint, sorted
+  std::vector<std::uint8_t> still_;      // sleepers with the pose of the last search [nblock]; empty without sleepers
   const bool may_have_levels_;
   bool relisted_ = true, unsorted_ = true;
   double elastic_ = 0, kinetic_correction_ = 0;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <span>
 
 #include "engine/contact/law/impact_bound.h"
@@ -26,7 +27,10 @@ void MotionBounds::initialise() {
   if (separation.q.size() == 0) separation.q = state_.pose.q;
   for (std::vector<double>* x : {&spin_, &travel_, &travel_ahead_}) x->assign(groups * pack_size, 0.0);
   separation.rotation_travel.resize(groups * pack_size, 0.0);
-  update_all(nullptr);
+  std::vector<int> all(z(model_.nblock));
+  std::iota(all.begin(), all.end(), 0);
+  if (at_macro_step(state_.time)) update_all(nullptr);
+  else place(all);
 }
 
 void MotionBounds::list_pairs() {
@@ -47,6 +51,15 @@ void MotionBounds::select(const Sleep& sleep) {
     add_to_group(placed_, b);
     if (model_.kind[z(b)] == Kind::driven) add_to_group(driven_, b);
   }
+}
+
+void MotionBounds::select_fast(const std::vector<int>& fast) {
+  fast_.clear();
+  std::vector<std::uint8_t> in(z(model_.nblock), 0);
+  for (const int i : fast) in[z(pair(i).a)] = in[z(pair(i).b)] = 1;
+  for (const BlockGroup& blocks : placed_)
+    for (int l = 0; l < pack_size; ++l)
+      if ((blocks.which >> l & 1u) != 0 && in[z(blocks.group * pack_size + l)]) add_to_group(fast_, blocks.group * pack_size + l);
 }
 
 void MotionBounds::add_to_group(std::vector<BlockGroup>& groups, int b) {
@@ -79,13 +92,18 @@ void MotionBounds::update_all(const Sleep* sleep) {
 }
 
 // Only blocks of live pairs need a pose in every step; all others wait for `update_all()`.
-void MotionBounds::track(int thread, int first, int last) {
-  fastest_[z(thread)] = {};
+void MotionBounds::track(int thread, int first, int last, bool within) {
   const auto before = [](const BlockGroup& blocks, int group) { return blocks.group < group; };
   const auto of = [&](const std::vector<BlockGroup>& groups) {
     const auto end = std::lower_bound(groups.begin(), groups.end(), (last + pack_size - 1) / pack_size, before);
     return std::span<const BlockGroup>(std::lower_bound(groups.begin(), end, first / pack_size, before), end);
   };
+  if (within) {
+    MaxSpeed any;  // unused until the next macro step
+    for (const BlockGroup& blocks : of(fast_)) update(blocks, any);
+    return;
+  }
+  fastest_[z(thread)] = {};
   double fastest[pack_size] = {};
   for (const BlockGroup& blocks : of(awake_)) {
     const auto& v = state_.motion.v.data()[blocks.group].x;
@@ -116,11 +134,20 @@ bool MotionBounds::prepare(const std::vector<int>& involved, bool unsorted) {
          std::sqrt(fastest) * macro_dt(state_.time) * update_every > 0.25 * state_.contacts.list.margin;
 }
 
-void MotionBounds::prepare_substep(const std::vector<int>& involved, bool unsorted) {
-  MaxSpeed late;
-  std::vector<BlockGroup> all;
-  for (const int b : unsorted ? involved : std::vector<int>{}) add_to_group(all, b);
-  for (const BlockGroup& blocks : unsorted ? all : driven_) update(blocks, late);
+void MotionBounds::prepare_substep() {
+  MaxSpeed any;
+  for (const BlockGroup& blocks : driven_) update(blocks, any);
+}
+
+void MotionBounds::place(const std::vector<int>& blocks) {
+  const BlockQuat q = state_.contacts.separation.q;
+  const std::vector<double> rotation_travel = state_.contacts.separation.rotation_travel;
+  MaxSpeed any;
+  std::vector<BlockGroup> groups;
+  for (const int b : blocks) add_to_group(groups, b);
+  for (const BlockGroup& one : groups) update(one, any);
+  state_.contacts.separation.q = q;
+  state_.contacts.separation.rotation_travel = rotation_travel;
 }
 
 bool MotionBounds::surely_separated(int i) {

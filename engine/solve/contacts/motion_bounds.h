@@ -21,11 +21,16 @@ class MotionBounds {
   void initialise();
   void list_pairs();                // after the list of pairs has changed
   void select(const Sleep& sleep);  // the blocks that need a pose in every step
-  // Updates the poses of blocks [first, last) after their drift; each thread has its own range.
-  void track(int thread, int first, int last);
+  // The blocks that need one in the middle of a macro step: those of the live pairs `fast`.
+  void select_fast(const std::vector<int>& fast);
+  // Updates the poses of blocks [first, last) after their drift; each thread has its own range. `within`: the next step is within a macro
+  // step, so that only blocks of fast pairs need it.
+  void track(int thread, int first, int last, bool within);
   // The remaining poses before the forces of a step; of all `involved` blocks if `unsorted`. True if a block travels far in few steps.
   bool prepare(const std::vector<int>& involved, bool unsorted);
-  void prepare_substep(const std::vector<int>& involved, bool unsorted);  // the same within a macro step
+  void prepare_substep();  // the same within a macro step
+  // Sets poses within a macro step without a change of the State: travel is that of the blocks of fast pairs alone, in a resumed run too.
+  void place(const std::vector<int>& blocks);
   // Updates the poses of all blocks; those asleep keep their pose if `sleep` is given.
   void update_all(const Sleep* sleep);
 
@@ -61,6 +66,7 @@ class MotionBounds {
   std::vector<BlockGroup> awake_;              // involved blocks that are awake
   std::vector<BlockGroup> placed_;             // moving ones among the blocks of live pairs
   std::vector<BlockGroup> driven_;             // driven ones among these; no drift moves them
+  std::vector<BlockGroup> fast_;               // moving ones among the blocks of fast pairs
   std::vector<PairBound> pair_bounds_;         // per pair
   std::vector<VectorPack<3>> last_u_;          // m, displacements at the last update of the pose, by groups of eight as in State
   std::vector<double> spin_;                   // m/s, speed of each block's farthest point by rotation; whole groups
