@@ -27,12 +27,12 @@ inline constexpr double event_sum = 5e-4;
 // no longer. In a rain of loose bricks all blows come at once, and half as much is allowed.
 inline constexpr double blow_sum = 1e-4, rain_sum = 5e-5;  // shares of `Energy::reference`
 inline constexpr double recent_share = 7.0 / 8;            // of `Energy::event_residual` that each step of the ledger leaves
-inline constexpr int few_joints = 16;  // in a structure of more joints the first opening of one is no significant event
-inline constexpr int few_loose = 16;   // blocks; the blows of more are a rain
+inline constexpr int few_joints = 16;                      // in a structure of more joints the first opening of one is no significant event
+inline constexpr int few_loose = 16;                       // blocks; the blows of more are a rain
 
 // With many loose blocks each impact is a smaller part of the whole, and the tolerance is that of a collapse, 1e-2. From `few_loose` blocks
-// on both shares grow with the square root of their number, up to this factor. A pile of 300 then takes 4 % more steps than without any bound,
-// instead of 21 %, and its ledger closes to 5e-4, instead of 4e-3.
+// on both shares grow with the square root of their number, up to this factor. A pile of 300 then takes 4 % more steps than without any
+// bound, instead of 21 %, and its ledger closes to 5e-4, instead of 4e-3.
 inline constexpr double most_for_many = 4;
 
 // True where the residual of the last steps counts, not that of the whole run.

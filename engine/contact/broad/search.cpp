@@ -212,6 +212,9 @@ struct Farthest {
   double two() const { return greatest + second; }
 };
 
+// Times the least time ahead: that of blocks that travel by no more than two margins in it. More would list too many pairs.
+constexpr double longer = 6;
+
 }  // namespace
 
 double suggested_margin(std::vector<double> t) {
@@ -254,7 +257,8 @@ double search(PairList& list, const ContactShapes& shapes, std::span<const Conta
     if (known && still[b]) continue;
     list.u[b] = blocks[b].u;
     list.rotation[b] = blocks[b].rotation;
-    list.travel[b] = ahead * (blocks[b].v.norm() + blocks[b].w.norm() * reach_of(shapes, b));
+    const double way = ahead * (blocks[b].v.norm() + blocks[b].w.norm() * reach_of(shapes, b));
+    list.travel[b] = std::max(way, std::min(longer * way, 2 * list.margin));
   }
   std::vector<std::uint8_t> looking(loose.begin(), loose.end());
   for (size_t b = 0; b < still.size(); ++b) looking[b] = looking[b] && !still[b];

@@ -21,7 +21,8 @@ bool needs_search(const PairList& list, const ContactShapes& shapes, std::span<c
                   std::span<const std::uint8_t> still = {});
 
 // Lists every pair of parts closer than the margin, or that may be so within the time `ahead` (s) at their speed, of which at least one
-// block is loose. So blocks that fall fast among others at rest do not make each search outdated.
+// block is loose. Blocks that travel two margins at most count six times as long, so that a few that fall fast do not make each search
+// outdated at once.
 // Pairs of blocks with a `pair_key()` in `excluded` (sorted) and pairs that cannot move are left out. Listed pairs that remain keep their
 // memory. Returns the energy in the friction springs of dropped pairs (J, to be booked as reset). Blocks that are `still` do not search but
 // can be found; pairs among them, or of one with a block that is not loose, stay listed, and their motion counts from their own last

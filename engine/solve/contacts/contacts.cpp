@@ -133,11 +133,9 @@ std::vector<int> Contacts::search_pairs(double& reset, std::span<const std::uint
   using Clock = std::chrono::steady_clock;
   const Clock::time_point began = Clock::now();
   std::vector<int> fresh;
-  // The list then lasts for half of these steps at least. A blow is predicted once its pair is evaluated, look_ahead steps before it
-  // (`MotionBounds`), in one step of foresee_every. A pair that is listed later meets it at whatever step there is.
-  constexpr double steps = 128;
-  static_assert(steps / 2 > 1.5 * look_ahead + foresee_every);
-  const double ahead = steps * std::max(macro_dt(state_.time), state_.time.last_dt);
+  // A blow is predicted once its pair is evaluated, look_ahead steps before it (`MotionBounds`), in one step of foresee_every. A pair that
+  // is listed later meets it at whatever step there is. The list lasts until half of the time has passed.
+  const double ahead = 2 * (1.5 * look_ahead + foresee_every) * std::max(macro_dt(state_.time), state_.time.last_dt);
   reset += search(
       state_.contacts.list, bodies_.shapes, bodies_.block, state_.topology.loose, jointed_,
       [this](int a, int b) { return bodies_.law(a, b); }, ahead, still, &fresh);
