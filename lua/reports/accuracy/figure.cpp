@@ -192,8 +192,7 @@ std::string error_range(const AccuracyStudy& s, const View& view) {
   return fmt::format("[{:.4g}:{:.4g}]", middle / reach, middle * reach);
 }
 
-// One legend for all panels, at the bottom, five entries a row.
-std::vector<plot::Label> common_legend(const std::vector<AccuracyStudy>& studies, const Looks& looks, double height) {
+std::vector<std::string> knobs_of(const std::vector<AccuracyStudy>& studies) {
   std::vector<std::string> knobs;
   for (const AccuracyStudy& s : studies) {
     for (const study::Curve& c : curves_in(s, false))
@@ -201,10 +200,16 @@ std::vector<plot::Label> common_legend(const std::vector<AccuracyStudy>& studies
     if (!together(s).empty() && std::find(knobs.begin(), knobs.end(), study::together_knob) == knobs.end())
       knobs.emplace_back(study::together_knob);
   }
+  return knobs;
+}
+
+// One legend for all panels, at the bottom, `across` entries a row.
+constexpr int across = 5;
+std::vector<plot::Label> common_legend(const std::vector<std::string>& knobs, int rows, const Looks& looks, double height) {
   std::vector<plot::Label> labels;
   const auto add = [&](const std::string& name, const std::string& color, int mark, double size) {
     const int k = int(labels.size());
-    labels.push_back({name, fmt::format("screen {:.4f},{:.4f}", 0.06 + 0.19 * (k % 5), (66.0 - 22 * (k / 5)) / height),
+    labels.push_back({name, fmt::format("screen {:.4f},{:.4f}", 0.06 + 0.19 * (k % across), 22.0 * (rows - k / across) / height),
                       fmt::format("left offset 1.5,0 point pt {} ps {} lw 2 lc rgb '{}'", mark, size, color)});
   };
   add("the scene as it is", "#000000", 3, 1.6);
@@ -221,9 +226,11 @@ void draw_accuracies(const std::vector<AccuracyStudy>& studies, const std::strin
   for (const AccuracyStudy& s : studies) pointers.push_back(&s);
   const Looks looks(pointers);
   const int columns = studies.size() > 4 ? 4 : int(std::max<std::size_t>(1, studies.size()));
-  const int rows = (int(studies.size()) + columns - 1) / columns, width = 470 * columns, height = 430 * rows + 125;
+  const std::vector<std::string> knobs = knobs_of(studies);
+  const int legend_rows = (3 + int(knobs.size()) + across - 1) / across;
+  const int rows = (int(studies.size()) + columns - 1) / columns, width = 470 * columns, height = 430 * rows + 59 + 22 * legend_rows;
   plot::Figure figure{double(width), double(height), 14};
-  figure.labels = common_legend(studies, looks, height);
+  figure.labels = common_legend(knobs, legend_rows, looks, height);
   figure.labels.push_back({"What accuracy costs: error over processor time, one line a knob",
                            fmt::format("screen 0.5,{:.4f}", 1 - 22.0 / height), "center font ',16'"});
   const View view{.compared = false};
