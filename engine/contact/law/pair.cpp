@@ -169,8 +169,9 @@ PairSettings pair_settings(const ContactSettings& s, const PairInterval& interva
           slender};
 }
 
-double power(const PairWrench& w, const ContactBlock& a, const ContactBlock& b) {
-  return w.force.dot(b.v - a.v) + w.moment_a.dot(a.w) + w.moment_b.dot(b.w);
+double power(const PairWrench& w, const ContactBlock& a, const ContactBlock& b) { return power(w, b.v - a.v, a.w, b.w); }
+double power(const PairWrench& w, const Vec3& speed, const Vec3& spin_a, const Vec3& spin_b) {
+  return w.force.dot(speed) + w.moment_a.dot(spin_a) + w.moment_b.dot(spin_b);
 }
 
 double impact_factor(double restitution) {

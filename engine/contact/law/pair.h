@@ -69,7 +69,8 @@ double impact_factor(double restitution);
 
 PairSettings pair_settings(const ContactSettings& settings, const PairInterval& interval);
 
-// Power of a pair's wrench at the velocities of `a` and `b` (W).
+// Power of a pair's wrench (W): at the velocities of `a` and `b`, or at the speed of b relative to a (m/s) and their spins (rad/s).
 double power(const PairWrench& wrench, const ContactBlock& a, const ContactBlock& b);
+double power(const PairWrench& wrench, const Vec3& speed, const Vec3& spin_a, const Vec3& spin_b);
 
 }  // namespace erbs

@@ -71,11 +71,8 @@ void ContactForces::book_after_kick(std::span<const int> live) {
     if (!pair.touching) continue;
     const BlockVec3 &v = state_.motion.v, &w = state_.motion.w;
     const Vec3 speed = Vec3(v[z(pair.b)]) - Vec3(v[z(pair.a)]), spin_a = w[z(pair.a)], spin_b = w[z(pair.b)];
-    const auto work = [&](const PairWrench& of) {
-      return half * (of.force.dot(speed) + of.moment_a.dot(spin_a) + of.moment_b.dot(spin_b));
-    };
-    state_.energy.friction -= work(pair.friction);
-    state_.energy.contact_damping -= work(pair.damping);
+    state_.energy.friction -= half * power(pair.friction, speed, spin_a, spin_b);
+    state_.energy.contact_damping -= half * power(pair.damping, speed, spin_a, spin_b);
   }
 }
 
