@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "engine/base/system/team.h"
 #include "engine/joints/reference.h"
 #include "engine/model/joint_packs.h"
 
@@ -33,8 +32,8 @@ JointPhase::JointPhase(const Model& model, State& state)
   forget_other_kernel(model, state);
 }
 
-void JointPhase::forces(int thread, int threads, bool sample, double budget) {
-  const Range mine = slice(items_, grain_, thread, threads);
+void JointPhase::forces(int thread, const Shares& shares, bool sample, double budget) {
+  const Range mine = shares.slice(items_, grain_, thread);
   if (owner_computes(model_)) intact_.forces(mine, sample, sums_);
   else
     for (int first = mine.first; first < mine.last; first += pack_grain) {
@@ -43,7 +42,7 @@ void JointPhase::forces(int thread, int threads, bool sample, double budget) {
       if (reference_) reference_forces(model_, state_, first, last, sample, sums);
       else damped_joint_forces(model_, state_, intact_.damped(), first, last, sample, sums);
     }
-  const Range cracked = slice(cracked_.groups(), Cracked::grain, thread, threads);
+  const Range cracked = shares.slice(cracked_.groups(), Cracked::grain, thread);
   for (int first = cracked.first; first < cracked.last; first += Cracked::grain)
     cracked_.forces(first, std::min(first + Cracked::grain, cracked.last), sample, budget, cracked_sums_[z(first / Cracked::grain)]);
 }

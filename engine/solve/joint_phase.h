@@ -3,6 +3,7 @@
 #include <utility>
 #include <vector>
 
+#include "engine/base/system/shares.h"
 #include "engine/joints/cracked/cracked.h"
 #include "engine/joints/intact/intact.h"
 #include "engine/joints/joint_forces.h"
@@ -17,7 +18,7 @@ class JointPhase {
   JointPhase(const Model& model, State& state);
 
   // Forces of the share of `thread`. `budget`: J, for `event_bound.h`; energies are summed if `sample`.
-  void forces(int thread, int threads, bool sample, double budget);
+  void forces(int thread, const Shares& shares, bool sample, double budget);
   void update_reference(const std::vector<std::uint8_t>& outdated) { intact_.update_reference(outdated); }
   // Joints that cracked in this step change their lanes, once all its forces are complete, and their blocks sum other rows.
   void move_cracked(std::vector<BlockConstants>& constants);

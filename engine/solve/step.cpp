@@ -16,6 +16,8 @@ namespace {
 constexpr int find_soft_every = 64;  // steps between two searches for former joints that must soften, ...
 constexpr int soften_every = 8;      // ... and between two steps of their softening
 constexpr int fade_every = 8;        // steps between two reductions of the stiffness of beds without bond
+constexpr int balance_every = 32;    // steps between two changes of the shares of threads, ...
+constexpr int timed_every = 4;       // ... and between two steps whose time is taken for them
 constexpr int regroup_every = 256;   // steps between two orderings of cracked joints in their packs
 constexpr int activate_every = 256;  // steps between two searches for blocks that have moved far
 std::size_t z(int i) { return std::size_t(i); }
@@ -37,7 +39,8 @@ Solver::Solver(const Model& model, State& state, const StepRange& range, int thr
       contacts_(model, state, range, threads),
       ledger_(model, state),
       may_have_levels_(may_have_levels(model)),
-      threads_(threads),
+      joint_shares_(threads),
+      block_shares_(threads),
       team_(threads, [this](int thread) { work(thread); }) {
   if (state.time.dt_target == 0) state.time.dt_target = state.time.dt;
   note_sleep();
@@ -60,13 +63,17 @@ Solver::Stop Solver::advance(const SamplePlan& plan) {
   return stop_;
 }
 
+bool Solver::timed() const { return !sampling() && state_.time.step % timed_every == 0; }
+
 void Solver::work(int thread) {
   forces(thread);
   if (!has_transitions_) team_.barrier().wait(thread);
   else if (!team_.barrier().wait(thread, [this] { transitions(); })) return;
   if (thread == 0) lap(has_transitions_ ? Phase::contact : Phase::joints);
-  if (inertia_ != nullptr) soften_inertia(thread);
-  integrate(thread);
+  const int groups = int(constants_.size()), grain = sequential_ ? groups : block_grain;  // a sweep runs on one thread
+  const Range mine = block_shares_.slice(groups, grain, thread);
+  if (inertia_ != nullptr) soften_inertia(thread, mine);
+  block_shares_.run(thread, timed(), [&] { integrate(thread, mine); });
 }
 
 // Searches have an account of their own.
@@ -76,6 +83,7 @@ void Solver::lap(Phase phase) {
 
 void Solver::prepare_step(const SamplePlan& plan) {
   const TimeStep& time = state_.time;
+  if (time.step % balance_every == 0) joint_shares_.balance(), block_shares_.balance();
   const bool together = at_macro_step(time), due = ledger_.due(contacts_.active());
   stop_ = !together ? Stop::none : plan.due(time.t, time.dt) ? Stop::sample : due ? Stop::ledger : Stop::none;
   if (std::ranges::any_of(block_sums_, &BlockSums::outdated)) update_outdated();
@@ -106,7 +114,7 @@ void Solver::update_outdated() {
 void Solver::forces(int thread) {
   if (has_contacts_) contacts_.forces(thread, sampling());
   if (thread == 0) lap(Phase::contact);
-  joints_.forces(thread, threads_, sampling(), budget_);
+  joint_shares_.run(thread, timed(), [&] { joints_.forces(thread, joint_shares_, sampling(), budget_); });
   if (thread == 0) lap(Phase::joints);
 }
 
@@ -153,15 +161,14 @@ void Solver::use(CoarseInertia& inertia) {
   force_.resize(constants_.size());
 }
 
-void Solver::soften_inertia(int thread) {
-  const Range mine = slice(int(constants_.size()), block_grain, thread, threads_);
+void Solver::soften_inertia(int thread, Range mine) {
   sum_forces(model_, state_, constants_, loads_.now(), {has_contacts_ ? contact_wrench_.data() : nullptr, loads_.rows()}, mine,
              force_.data());
   inertia_->gather(force_.data(), mine);
   if (team_.barrier().wait(thread, [this] { inertia_->solve(); })) inertia_->scatter(state_, mine, block_sums_);
 }
 
-void Solver::integrate(int thread) {
+void Solver::integrate(int thread, Range mine) {
   const double* contacts = !has_contacts_ ? nullptr : has_levels(state_.time) ? contact_kick_.data() : contact_wrench_.data();
   const BlockLevels& levels = contacts_.block_levels();
   const bool apart = has_levels(state_.time);
@@ -171,8 +178,6 @@ void Solver::integrate(int thread) {
                                 apart ? levels.since() : nullptr,
                                 apart ? levels.next() : nullptr,
                                 inertia_ != nullptr ? inertia_->rows() : nullptr};
-  const int groups = int(constants_.size()), grain = sequential_ ? groups : block_grain;  // a sweep runs on one thread
-  const Range mine = slice(groups, grain, thread, threads_);
   if (!sequential_)
     erbs::advance(model_, state_, constants_, loads_.now(), external, mine, sampling(), block_sums_, idle_, joints_.cracked().poses());
   else if (mine.first < mine.last) sequential_->sweep(loads_.now(), external, constants_, sampling(), joints_.sums().front(), block_sums_);

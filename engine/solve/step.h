@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "engine/base/system/shares.h"
 #include "engine/base/system/team.h"
 #include "engine/joints/cracked/fading.h"
 #include "engine/solve/blocks/integrate.h"
@@ -78,12 +79,13 @@ class Solver {
 
  private:
   bool sampling() const { return stop_ != Stop::none; }
+  bool timed() const;  // the times of the threads are taken in this step
   void prepare_step(const SamplePlan& plan);
   void work(int thread);
   void forces(int thread);
   void transitions();
-  void soften_inertia(int thread);
-  void integrate(int thread);
+  void soften_inertia(int thread, Range mine);
+  void integrate(int thread, Range mine);
   void close_step(const SamplePlan& plan);
   void begin_sample();
   void end_sample(bool wrenches);
@@ -132,7 +134,7 @@ class Solver {
   Stop stop_ = Stop::none;
   bool broken_ = false, has_contacts_ = false, has_transitions_ = false;
   const bool may_have_levels_;
-  const int threads_;
+  Shares joint_shares_, block_shares_;
   Team team_;
 };
 

@@ -171,14 +171,9 @@ class Team {
   std::optional<OwnCore> core_;
 };
 
-// Slice [first, last) of n items that thread `i` of `threads` owns, in whole chunks of `grain` items.
+// Items [first, last) of a row of work.
 struct Range {
   int first, last;
 };
-inline Range slice(int n, int grain, int i, int threads) {
-  const int chunks = (n + grain - 1) / grain;
-  const auto edge = [&](int k) { return std::min(n, (chunks * k / threads) * grain); };
-  return {edge(i), edge(i + 1)};
-}
 
 }  // namespace erbs
