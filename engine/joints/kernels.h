@@ -177,12 +177,13 @@ struct alignas(64) BlockWork {
 struct KickDrift {
   double kick, dt, half_last, half_next;     // s
   double more;                               // as `book()` says
+  double shortens;                           // with a coarse inertia (last drift - next drift) / 4 kick
   double damping, damped_keep, damped_kick;  // 1/s; a damped kick is `(1 + damped_keep) v + kick (1 + damped_kick) contact_wrench`
   double local;                              // Model::local_damping
   double ground[3], gravity[3];              // m/s2
   bool first;                                // no drift has come before
   bool damping_explicit, gyroscopic, shaken;
-  bool relaxes;  // damping, local damping or gravity factors
+  bool relaxes;  // damping, local damping, coarse inertia or gravity factors
 };
 
 // Addresses of the poses and rest geometry of eight joints, and one result.

@@ -14,7 +14,7 @@ namespace {
 
 std::size_t z(int i) { return std::size_t(i); }
 
-KickDrift kick_of(const Model& m, const State& s, const Excitation& e) {
+KickDrift kick_of(const Model& m, const State& s, const Excitation& e, bool inertia) {
   KickDrift k{};
   k.kick = e.kick;
   k.dt = s.time.dt;
@@ -22,9 +22,10 @@ KickDrift kick_of(const Model& m, const State& s, const Excitation& e) {
   k.half_next = 0.5 * s.time.dt;
   k.first = s.time.last_dt == 0;
   k.more = 2 * k.half_last / k.kick - 1;
+  k.shortens = !inertia || k.first ? 0 : 0.25 * (s.time.last_dt - s.time.dt) / k.kick;
   k.damping = m.damping.mass;
   k.local = m.local_damping;
-  k.relaxes = k.damping > 0 || k.local > 0 || !m.gravity_factor.empty();
+  k.relaxes = inertia || k.damping > 0 || k.local > 0 || !m.gravity_factor.empty();
   k.damping_explicit = m.damping_explicit;
   const double f = 0.5 * k.damping * k.kick;
   k.damped_keep = m.damping_explicit ? -k.damping * k.kick : (1 - f) / (1 + f) - 1;
@@ -201,7 +202,7 @@ void gather_outdated(BlockSums& sums) {
 
 void advance(const Model& m, State& s, const std::vector<BlockConstants>& constants, const Excitation& e, const ExternalForces& external,
              Range groups, bool sample, std::vector<BlockSums>& all, std::span<const std::uint8_t> idle, double* poses) {
-  const KickDrift step = kick_of(m, s, e);
+  const KickDrift step = kick_of(m, s, e, external.inertia != nullptr);
   const BlockArrays blocks = arrays(m, s, constants, external, poses);
   const StepKernels& kernels = step_kernels();
   const bool summed = sample || step.shaken || step.relaxes || !external.loaded.empty();
@@ -229,12 +230,12 @@ void advance(const Model& m, State& s, const std::vector<BlockConstants>& consta
 
 void sum_forces(const Model& m, State& s, const std::vector<BlockConstants>& constants, const Excitation& e, const ExternalForces& external,
                 Range groups, VectorPack<6>* out) {
-  step_kernels().forces(kick_of(m, s, e), arrays(m, s, constants, external, nullptr), groups.first, groups.last, out);
+  step_kernels().forces(kick_of(m, s, e, false), arrays(m, s, constants, external, nullptr), groups.first, groups.last, out);
 }
 
 BlockGather::BlockGather(const Model& m, State& s, const std::vector<BlockConstants>& constants, const Excitation& e,
                          const ExternalForces& external)
-    : model_(m), state_(s), constants_(constants), external_(external), kernels_(step_kernels()), step_(kick_of(m, s, e)) {
+    : model_(m), state_(s), constants_(constants), external_(external), kernels_(step_kernels()), step_(kick_of(m, s, e, false)) {
   constant_.carried = true;
 }
 

@@ -130,7 +130,7 @@ TEST_CASE("instruction sets give the same bits", "[solve]") {
                              s.cache.wrench.data(),
                              nullptr,
                              nullptr};
-    const KickDrift step{1e-5, 1e-5, 5e-6, 5e-6, 0, 3, -3e-5, -1.5e-5, 0.3, {0.1, 0, 0}, {0, 0, -9.81}, false, false, true, true, true};
+    const KickDrift step{1e-5, 1e-5, 5e-6, 5e-6, 0, 0, 3, -3e-5, -1.5e-5, 0.3, {0.1, 0, 0}, {0, 0, -9.81}, false, false, true, true, true};
     for (const bool sample : {false, true}) kernels.advance(step, arrays, 0, int(constants.size()), sample, work);
     for (std::size_t i = 0; i < s.cache.wrench.size(); ++i)
       if (i % 8 < 6) out.push_back(s.cache.wrench[i]);
