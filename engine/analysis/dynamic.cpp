@@ -265,7 +265,7 @@ void Run::judge() {
 
 // Of the present Solver, before it ends.
 void Run::take_counts() {
-  touched_ += solver_->contacts().touched(), slept_ += solver_->contacts().slept();
+  touched_ += solver_->contacts().sums().touched(), slept_ += solver_->contacts().slept();
   searched_ += solver_->contacts().searched();
   out_.profile += solver_->profile();
 }

@@ -59,7 +59,7 @@ Snapshot snapshot_of(const Model& m, const State& state, const Solver& solver, b
   s.joints_broken = broken_joints(m, joints);
   for (int j = 0; j < m.njoint; ++j)
     if (joints.stage[z(j)] != JointStage::contact) s.contact_points += m.joint[z(j)].type->points;
-  s.contact_points += solver.contacts().touching();
+  s.contact_points += solver.contacts().sums().touching();
   return s;
 }
 

@@ -40,6 +40,7 @@ Solver::Solver(const Model& model, State& state, const StepRange& range, int thr
       ledger_(model, state),
       may_have_levels_(may_have_levels(model)),
       joint_shares_(threads),
+      contact_shares_(threads),
       block_shares_(threads),
       team_(threads, [this](int thread) { work(thread); }) {
   if (state.time.dt_target == 0) state.time.dt_target = state.time.dt;
@@ -67,6 +68,10 @@ bool Solver::timed() const { return !sampling() && state_.time.step % timed_ever
 
 void Solver::work(int thread) {
   forces(thread);
+  if (has_contacts_ && at_macro_step(state_.time)) {
+    team_.barrier().wait(thread);
+    contact_shares_.run(thread, timed(), [&] { add_up_contacts(thread); });
+  }
   if (!has_transitions_) team_.barrier().wait(thread);
   else if (!team_.barrier().wait(thread, [this] { transitions(); })) return;
   if (thread == 0) lap(has_transitions_ ? Phase::contact : Phase::joints);
@@ -83,7 +88,7 @@ void Solver::lap(Phase phase) {
 
 void Solver::prepare_step(const SamplePlan& plan) {
   const TimeStep& time = state_.time;
-  if (time.step % balance_every == 0) joint_shares_.balance(), block_shares_.balance();
+  if (time.step % balance_every == 0) joint_shares_.balance(), contact_shares_.balance(), block_shares_.balance();
   const bool together = at_macro_step(time), due = ledger_.due(contacts_.active());
   stop_ = !together ? Stop::none : plan.due(time.t, time.dt) ? Stop::sample : due ? Stop::ledger : Stop::none;
   if (std::ranges::any_of(block_sums_, &BlockSums::outdated)) update_outdated();
@@ -118,15 +123,23 @@ void Solver::forces(int thread) {
   if (thread == 0) lap(Phase::joints);
 }
 
-// Between forces and drift, on one thread: contact forces are gathered, and joints beyond their range are released to contact.
+void Solver::add_up_contacts(int thread) {
+  const Range groups = contact_shares_.slice(int(constants_.size()), block_grain, thread);
+  const Range blocks{std::min(groups.first * pack_size, model_.nblock), std::min(groups.last * pack_size, model_.nblock)};
+  ContactSums& sums = contacts_.sums();
+  sums.add_up(blocks, contact_wrench_.data(), has_levels(state_.time) ? contact_kick_.data() : nullptr);
+  if (thread == 0) sums.add_totals(has_levels(state_.time), sampling());
+}
+
+// Between forces and drift, on one thread: joints beyond their range are released to contact.
 void Solver::transitions() {
   TimeStep& time = state_.time;
   if (!at_macro_step(time)) {
-    if (has_contacts_) contacts_.gather_substep(contact_kick_.data());
+    if (has_contacts_) contacts_.add_up_substep(contact_kick_.data());
     return;
   }
   const bool may_release = model_.analysis.debris && joints_.any_cracked() && every(model_.release_every, time);
-  if (has_contacts_) contacts_.gather(contact_wrench_.data(), has_levels(time) ? contact_kick_.data() : nullptr, sampling());
+  if (has_contacts_) contacts_.end_sums(has_levels(time));
   if (time.step == 0) {  // contacts present at the start, blows soon after it and joints that yield at once limit the first drift
     const double blows = has_contacts_ ? contacts_.bound().event_rate() : 0, rate = std::max(blows, event_rate_at_start());
     if (rate > 0) time.event_dt = 1 / rate;
@@ -240,7 +253,8 @@ void Solver::close_step(const SamplePlan& plan) {
   foresee_events();
   lap(Phase::joints);
   if (sampling()) {
-    const double elastic = has_contacts_ ? contacts_.elastic() : 0, kinetic = has_contacts_ ? contacts_.kinetic_correction() : 0;
+    const double elastic = has_contacts_ ? contacts_.sums().elastic() : 0,
+                 kinetic = has_contacts_ ? contacts_.sums().kinetic_correction() : 0;
     ledger_.close(joints_.sums(), joints_.cracked_sums(), block_sums_, elastic, kinetic, joints_.any_cracked() || has_contacts_);
     joints_.store();
   }

@@ -1,6 +1,6 @@
 // One time step as a sequence of named phases, run by a persistent team of threads:
 //   prepare the step, evaluate loads | contact forces, joint forces | barrier
-//   gather contact forces, release joints | integrate: kick and drift of blocks | barrier
+//   add up contact forces | barrier | release joints | integrate: kick and drift of blocks | barrier
 //   close the ledger, update the topology, choose the next step length
 #pragma once
 #include <limits>
@@ -83,6 +83,7 @@ class Solver {
   void prepare_step(const SamplePlan& plan);
   void work(int thread);
   void forces(int thread);
+  void add_up_contacts(int thread);
   void transitions();
   void soften_inertia(int thread, Range mine);
   void integrate(int thread, Range mine);
@@ -134,7 +135,7 @@ class Solver {
   Stop stop_ = Stop::none;
   bool broken_ = false, has_contacts_ = false, has_transitions_ = false;
   const bool may_have_levels_;
-  Shares joint_shares_, block_shares_;
+  Shares joint_shares_, contact_shares_, block_shares_;
   Team team_;
 };
 

@@ -57,7 +57,7 @@ Timing time_steps(const Model& model, State state, const StepRange& range, const
   const long length = std::max(128L, long(seconds / stretches / each) / 128 * 128);
   std::vector<double> user, wall;
   const double t0 = state.time.t;
-  const long touched = solver.contacts().touched();
+  const long touched = solver.contacts().sums().touched();
   for (int i = 0; i < stretches; ++i) {
     const double user0 = processor_seconds(), wall0 = wall_seconds();
     const long before = state.time.step;
@@ -69,7 +69,7 @@ Timing time_steps(const Model& model, State state, const StepRange& range, const
   }
   out.user = median(user);
   out.wall = median(wall);
-  out.touching = double(solver.contacts().touched() - touched) / double(out.steps);
+  out.touching = double(solver.contacts().sums().touched() - touched) / double(out.steps);
   out.dt = (state.time.t - t0) / double(out.steps);
   return out;
 }
@@ -86,7 +86,7 @@ Timing time_course(const Model& model, State state, const StepRange& range, int 
   out.steps = state.time.step - first;
   out.user = (processor_seconds() - user) / double(out.steps);
   out.wall = (wall_seconds() - wall) / double(out.steps);
-  out.touching = double(solver.contacts().touched()) / double(out.steps);
+  out.touching = double(solver.contacts().sums().touched()) / double(out.steps);
   out.dt = (state.time.t - t0) / double(out.steps);
   return out;
 }

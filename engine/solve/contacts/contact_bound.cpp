@@ -26,12 +26,11 @@ void ContactBound::initialise() {
   thinnest_ = *std::ranges::min_element(model_.smallest_edge);
 }
 
-void ContactBound::begin() {
-  for (const int b : sleep_.in_live_pairs()) {
+void ContactBound::begin(std::span<const int> blocks) {
+  for (const int b : blocks) {
     omega2_[z(b)] = sleep_.has_resting() ? sleep_.omega2(b) : 0;
     impact_omega2_[z(b)] = 0;
   }
-  part_[0] = part_[1] = Part{};
 }
 
 void ContactBound::end(const ContactForces& forces, FormerJoints& former, Sleep& sleep, MotionBounds& motion, bool divides) {

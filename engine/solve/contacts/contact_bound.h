@@ -2,6 +2,7 @@
 // not pass others. Rates are gathered in every step; `ContactLimit` combines them with its matrices.
 #pragma once
 #include <algorithm>
+#include <array>
 #include <span>
 #include <vector>
 
@@ -22,23 +23,37 @@ class ContactBound {
       : model_(model), state_(state), bodies_(bodies), sleep_(sleep), limit_(model, state, range) {}
   void initialise();
 
-  // A step: `begin()`, the rates of all pairs, `end()`.
-  void begin();
-  void add(const ContactForces::Force& force, const MotionBounds::PairBound& pair, const FormerJoints::FormerJoint& former) {
-    const PairResult& r = force.result;
-    Part& part = part_of(pair);
-    part.slip_omega2 = std::max(part.slip_omega2, r.slip_omega2);
-    ++part.pairs;
-    omega2_[std::size_t(pair.a)] += std::max(0.0, r.omega2_a - former.omega2_a);
-    omega2_[std::size_t(pair.b)] += std::max(0.0, r.omega2_b - former.omega2_b);
-    part.event_rate = std::max(part.event_rate, r.event_rate);
-    if (former.joint < 0 || r.touching) add_impact(pair, r.impact_omega2_a, r.impact_omega2_b);
+  // Pairs with a fast block, or of two loose ones.
+  struct Part {
+    double slip_omega2 = 0, event_rate = 0, dt = 0;  // 1/s2, 1/s, s
+    int pairs = 0;                                   // with forces
+  };
+  using Parts = std::array<Part, 2>;
+
+  // A step: `begin()` and the rates on each block; `begin_totals()` and those of all pairs, summed by each thread; `end()`.
+  void begin(std::span<const int> blocks);
+  void add(int b, double omega2, double impact_omega2) {
+    double &sum = omega2_[std::size_t(b)], &impact = impact_omega2_[std::size_t(b)];
+    sum += std::max(0.0, omega2);
+    impact = std::max(impact, impact_omega2);
   }
-  void add(const ContactForces::SeparatedPair& one, const MotionBounds::PairBound& pair, const FormerJoints::FormerJoint& former) {
-    Part& part = part_of(pair);
+  void begin_totals() { part_ = {}; }
+  void add(const MotionBounds::PairBound& pair, const PairResult& r, Parts& to) const {
+    Part& part = to[loose(pair.a, pair.b)];
+    part.slip_omega2 = std::max(part.slip_omega2, r.slip_omega2);
+    part.event_rate = std::max(part.event_rate, r.event_rate);
+    ++part.pairs;
+  }
+  void add(const MotionBounds::PairBound& pair, const ContactForces::SeparatedPair& one, Parts& to) const {
+    Part& part = to[loose(pair.a, pair.b)];
     part.event_rate = std::max(part.event_rate, one.event_rate);
-    // A former joint that closes again is no stiffer than its joint was: only while it touches may its blocks fall flat on other faces.
-    if (former.joint < 0) add_impact(pair, one.impact_omega2_a, one.impact_omega2_b);
+  }
+  void add(const Parts& more) {
+    for (std::size_t i = 0; i < part_.size(); ++i) {
+      part_[i].slip_omega2 = std::max(part_[i].slip_omega2, more[i].slip_omega2);
+      part_[i].event_rate = std::max(part_[i].event_rate, more[i].event_rate);
+      part_[i].pairs += more[i].pairs;
+    }
   }
   void end(const ContactForces& forces, FormerJoints& former, Sleep& sleep, MotionBounds& motion, bool divides);
   // `end()` may divide the blocks in two parts, each with a bound of its own (model/levels.h): fast ones, with joints or former joints or
@@ -62,18 +77,7 @@ class ContactBound {
   int pairs(bool loose) const { return part_[loose].pairs; }  // with forces
 
  private:
-  void add_impact(const MotionBounds::PairBound& pair, double omega2_a, double omega2_b) {
-    double &a = impact_omega2_[std::size_t(pair.a)], &b = impact_omega2_[std::size_t(pair.b)];
-    a = std::max(a, omega2_a);
-    b = std::max(b, omega2_b);
-  }
   void update(const ContactForces& forces, FormerJoints& former, Sleep& sleep);
-  // Pairs with a fast block, or of two loose ones.
-  struct Part {
-    double slip_omega2 = 0, event_rate = 0, dt = 0;  // 1/s2, 1/s, s
-    int pairs = 0;
-  };
-  Part& part_of(const MotionBounds::PairBound& pair) { return part_[loose(pair.a, pair.b)]; }
   void divide(const ContactForces& forces, const FormerJoints& former);
   double part_dt(bool loose, bool impacts) const;
   double limit() const;  // s, time step that contacts and joints allow, ...
@@ -91,7 +95,7 @@ class ContactBound {
   OverlapRoom room_;
   std::vector<double> omega2_;         // 1/s2, of contacts beyond the bound of `limit_` [nblock]
   std::vector<double> impact_omega2_;  // 1/s2, of the stiffest face that may strike the block next; there is room for only one [nblock]
-  Part part_[2];
+  Parts part_;
   double elsewhere_ = 0;  // 1/s2, greatest `on_block()` of blocks without a live pair
   double allowed_ = 0;
   double thinnest_ = 0;  // m, thinnest extent of all blocks

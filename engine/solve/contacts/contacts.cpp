@@ -27,6 +27,7 @@ Contacts::Contacts(const Model& model, State& state, const StepRange& range, int
       forces_(state, bodies_, motion_, threads),
       sleep_(model, state),
       bound_(model, state, range, bodies_, sleep_),
+      sums_({model, state, bodies_, motion_, former_, forces_, sleep_, bound_}, threads),
       block_levels_(model, state),
       may_have_levels_(may_have_levels(model)) {
   PairList& list = state.contacts.list;
@@ -158,7 +159,7 @@ void Contacts::sort() {
   find_still();
   bound_.bound_elsewhere();
   unsorted_ = false;
-  relisted_ = true;
+  sums_.list_pairs();
 }
 
 // Finds sleepers with the pose of the last search: the list has all their neighbours.
@@ -178,87 +179,9 @@ bool Contacts::sleep(const Excitation& now, const double* contact_wrench) {
   return changed;
 }
 
-namespace {
-
-// Adds the wrench of a pair, times `share`, to the rows of its blocks.
-void add_wrench(double* rows, std::size_t a, std::size_t b, const PairWrench& wrench, double share) {
-  static_assert(sizeof(PairWrench) == 9 * sizeof(double));
-  static const Vec6 from_a = (Vec6() << -1, -1, -1, 1, 1, 1).finished();
-  const double* w = wrench.force.data();
-  Vec6::Map(rows + 8 * a) += share * from_a.cwiseProduct(Vec6::Map(w));
-  Vec3::Map(rows + 8 * b) += share * Vec3::Map(w);
-  Vec3::Map(rows + 8 * b + 3) += share * Vec3::Map(w + 6);
-}
-
-}  // namespace
-
-void Contacts::add_up(const ContactForces::ThreadPairs& found, double* contact_wrench, double* kick, bool sample) {
-  const double* const edge = model_.smallest_edge.data();
-  double friction = state_.energy.friction, damping = state_.energy.contact_damping, penetration = state_.observed.max_penetration_relative;
-  int *const contacts = state_.contacts.list.contact_count.data(), touching = 0;
-  for (const ContactForces::Force& one : found.forces) {
-    const MotionBounds::PairBound& pair = motion_.pair(one.pair);
-    const PairResult& r = one.result;
-    const std::size_t a = z(pair.a), b = z(pair.b);
-    add_wrench(contact_wrench, a, b, r.wrench, 1);
-    if (kick) add_kick(one, kick, sample);
-    friction += r.friction;
-    damping += r.damping;
-    if (sample) elastic_ += r.elastic + r.tangential;
-    touching += r.touching;
-    contacts[a] += r.touching;
-    contacts[b] += r.touching;
-    bound_.add(one, pair, former_.of_pair(one.pair));
-    const double thin = std::min(edge[a], edge[b]);
-    if (r.depth > penetration * thin) penetration = std::max(penetration, r.depth / thin);
-  }
-  for (const ContactForces::SeparatedPair& one : found.separated) bound_.add(one, motion_.pair(one.pair), former_.of_pair(one.pair));
-  state_.energy.friction = friction, state_.energy.contact_damping = damping;
-  state_.observed.max_penetration_relative = penetration;
-  touching_ += touching;
-  touched_ += touching;
-}
-
-// Kinetic energy belongs to the velocity to which the last interval of each pair would have led (`book()` of `block_kernel.h`).
-void Contacts::add_kick(const ContactForces::Force& one, double* kick, bool sample) {
-  const MotionBounds::PairBound& pair = motion_.pair(one.pair);
-  const TimeStep& time = state_.time;
-  const double since = interval_before(time, forces_.slow(one.pair)),
-               next = interval_after(time, time.substeps > 1 && bound_.loose(pair.a, pair.b)),
-               share = (since + next) / (time.last_dt + time.dt);
-  add_wrench(kick, z(pair.a), z(pair.b), one.result.wrench, share);
-  if (!sample) return;
-  const double used = share * time.last_dt;  // s, of the kick that `book()` extrapolates to the last step
-  kinetic_correction_ += 0.5 * (since - used) * power(one.result.wrench, bodies_.block[z(pair.a)], bodies_.block[z(pair.b)]);
-}
-
-void Contacts::start_rows(std::span<const int> blocks, double* rows) const {
-  const bool rested = sleep_.has_resting();
-  for (const int b : blocks) {
-    if (rested) std::copy_n(sleep_.resting_wrench(b), 8, rows + 8 * b);
-    else std::fill_n(rows + 8 * b, 8, 0.0);
-  }
-}
-
-void Contacts::gather(double* contact_wrench, double* kick, bool sample) {
-  std::vector<int>& count = state_.contacts.list.contact_count;
-  const bool rested = sleep_.has_resting();
-  if (std::exchange(relisted_, false)) {
-    if (rested) std::copy_n(sleep_.resting_wrench(0), 8 * z(model_.nblock), contact_wrench);
-    else std::fill_n(contact_wrench, 8 * z(model_.nblock), 0.0);
-  }
-  start_rows(sleep_.in_live_pairs(), contact_wrench);
-  for (const int b : sleep_.in_live_pairs()) count[z(b)] = rested ? sleep_.contacts(b) : 0;
-  if (kick) std::copy_n(contact_wrench, 8 * z(model_.nblock), kick);
-  bound_.begin();
-  touching_ = sleep_.touching();
-  kinetic_correction_ = 0;
-  if (sample) elastic_ = sleep_.elastic();
-  for (const ContactForces::ThreadPairs& found : forces_.results()) add_up(found, contact_wrench, kick, sample);
-  if (kick) start_macro_step();
-  for (const int b : sleep_.in_live_pairs())
-    if (model_.kind[z(b)] != Kind::moving) count[z(b)] = 0;                         // no limit for dashpots on a fixed or driven block
-    else if (state_.topology.joined[z(b)]) count[z(b)] += int(saturated_contacts);  // joints use up this block's share
+void Contacts::end_sums(bool levels) {
+  sums_.end();
+  if (levels) start_macro_step();
   forces_.balance_threads();
   bound_.end(forces_, former_, sleep_, motion_, may_have_levels_ && divides(state_.time));
 }
@@ -295,27 +218,9 @@ void Contacts::start_macro_step() {
   list_fast_pairs();
 }
 
-void Contacts::gather_substep(double* kick) {
+void Contacts::add_up_substep(double* kick) {
   block_levels_.substep();
-  const bool relisted = std::exchange(relisted_, false);
-  if (relisted) {  // after a resumption within a macro step, or a release at its start
-    if (sleep_.has_resting()) std::copy_n(sleep_.resting_wrench(0), 8 * z(model_.nblock), kick);
-    else std::fill_n(kick, 8 * z(model_.nblock), 0.0);
-  }
-  // The other blocks keep the rows of the first step: none but fast pairs acts.
-  start_rows(relisted || state_.time.substep == 1 ? std::span<const int>(sleep_.in_live_pairs()) : fast_blocks_, kick);
-  const double* const edge = model_.smallest_edge.data();
-  for (const ContactForces::ThreadPairs& found : forces_.results())
-    for (const ContactForces::Force& one : found.forces) {
-      const MotionBounds::PairBound& pair = motion_.pair(one.pair);
-      const PairResult& r = one.result;
-      add_wrench(kick, z(pair.a), z(pair.b), r.wrench, 1);
-      state_.energy.friction += r.friction;
-      state_.energy.contact_damping += r.damping;
-      touched_ += r.touching;
-      double& penetration = state_.observed.max_penetration_relative;
-      penetration = std::max(penetration, r.depth / std::min(edge[pair.a], edge[pair.b]));
-    }
+  sums_.add_up_substep(fast_blocks_, kick);
 }
 
 void Contacts::soften_former_joints(double most, bool find, double dt) {

@@ -14,6 +14,7 @@
 #include "engine/solve/contacts/bodies.h"
 #include "engine/solve/contacts/contact_bound.h"
 #include "engine/solve/contacts/contact_forces.h"
+#include "engine/solve/contacts/contact_sums.h"
 #include "engine/solve/contacts/former_joints.h"
 #include "engine/solve/contacts/motion_bounds.h"
 #include "engine/solve/contacts/sleep.h"
@@ -32,16 +33,18 @@ class Contacts {
   void prepare(double budget, const Interlock& interlock);
   // The same within a macro step (model/levels.h): the list of pairs stays.
   void prepare_substep(const Interlock& interlock);
-  // Forces of this thread's pairs. Afterwards `gather()` sums them on one thread, in the order of the pairs.
-  void forces(int thread, bool sample) { forces_.evaluate(thread, at_macro_step(state_.time) ? sleep_.live() : fast_, sample); }
-  // At the start of a macro step; `kick`: the same, each pair times its impulse over that of a step, null without levels
-  // (model/levels.h). Pairs then become slow or fast for this macro step.
-  void gather(double* contact_wrench, double* kick, bool sample);
-  void gather_substep(double* kick);                                 // within a macro step: of the pairs that act in this step
+  // Forces of this thread's pairs.
+  void forces(int thread, bool sample) {
+    forces_.evaluate(thread, at_macro_step(state_.time) ? sleep_.live() : fast_, sample);
+    if (at_macro_step(state_.time)) sums_.condense(thread);
+  }
+  // Then, at the start of a macro step, all threads add up `sums()`. `end_sums()` makes pairs slow or fast for the macro step, and finds
+  // the time step that they allow.
+  ContactSums& sums() { return sums_; }
+  void end_sums(bool levels);
+  void add_up_substep(double* kick);                                 // within a macro step: of the pairs that act in this step
   const BlockLevels& block_levels() const { return block_levels_; }  // of loads
   void join_parts() { state_.contacts.list.fast.clear(); }           // all pairs act in every step of the next macro step
-  // J, of the sample: kinetic energy is that of the last interval of each pair, the kick may be for another one.
-  double kinetic_correction() const { return kinetic_correction_; }
   // Releases joints without bond and beyond their range (`joint_ready_for_contact()`) to contact and returns them. Called between forces
   // and drift: this step still has the wrench and stored energy of the joint, the next step has those of the contact.
   std::vector<int> release_joints(Cracked& cracked);
@@ -54,10 +57,8 @@ class Contacts {
 
   const ContactBound& bound() const { return bound_; }
   FormerJoints& former_joints() { return former_; }
-  double elastic() const { return elastic_; }  // J, stored in contacts at the last sample
-  int touching() const { return touching_; }
+  const ContactSums& sums() const { return sums_; }
   long slept() const { return sleep_.slept(); }  // steps of sleeping blocks, since the start of this Solver
-  long touched() const { return touched_; }      // touching pairs, summed over the steps of this Solver
   double searched() const { return searched_; }  // s, spent on searches by this Solver
  private:
   void initialise();
@@ -67,12 +68,9 @@ class Contacts {
   std::vector<int> search_pairs(double& reset, std::span<const std::uint8_t> still);
   void sort();
   void find_still();
-  void add_up(const ContactForces::ThreadPairs& found, double* contact_wrench, double* kick, bool sample);
   void start_macro_step();
   std::vector<std::uint8_t> blocks_with_slow_pair() const;
   void list_fast_pairs();
-  void add_kick(const ContactForces::Force& force, double* kick, bool sample);
-  void start_rows(std::span<const int> blocks, double* rows) const;
   std::vector<int> ready_joints(const Cracked& cracked) const;
 
   const Model& model_;
@@ -83,16 +81,14 @@ class Contacts {
   ContactForces forces_;
   Sleep sleep_;
   ContactBound bound_;
+  ContactSums sums_;
   BlockLevels block_levels_;
   std::vector<int> fast_, fast_blocks_;  // live pairs that act in every step, within a macro step, and their blocks
   std::vector<int> involved_;            // blocks that are loose or listed in a pair
   std::vector<std::uint64_t> jointed_;   // pairs of blocks that still have a joint, sorted
   std::vector<std::uint8_t> still_;      // sleepers with the pose of the last search [nblock]; empty without sleepers
   const bool may_have_levels_;
-  bool relisted_ = true, unsorted_ = true;
-  double elastic_ = 0, kinetic_correction_ = 0;
-  int touching_ = 0;
-  long touched_ = 0;
+  bool unsorted_ = true;
   double searched_ = 0;
 };
 

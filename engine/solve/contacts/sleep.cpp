@@ -104,6 +104,7 @@ void Sleep::sort(const std::vector<int>& involved, const std::function<PairResul
     else resting_.push_back({p.a, p.b, p.part_a, p.part_b, i, evaluate(i)});
     resting_.back().pair = i;
   }
+  std::ranges::sort(in_live_pairs_);
   for (const int b : involved)
     if (model_.kind[z(b)] != Kind::fixed && !asleep(b)) awake_.push_back(b);
   if (!on_) return;

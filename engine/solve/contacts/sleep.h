@@ -34,7 +34,7 @@ class Sleep {
   void sort(const std::vector<int>& involved, const std::function<PairResult(int i)>& evaluate);
   const std::vector<int>& live() const { return live_; }                    // pairs with an awake block, in order
   const std::vector<int>& awake() const { return awake_; }                  // involved blocks that are awake, driven ones included
-  const std::vector<int>& in_live_pairs() const { return in_live_pairs_; }  // blocks of live pairs
+  const std::vector<int>& in_live_pairs() const { return in_live_pairs_; }  // blocks of live pairs, ascending
   void add_omega2();                                                        // again, after an update of the bound
   template <class F>
   void each_resting(F&& f) const {  // f(i, result): touching pairs at rest
