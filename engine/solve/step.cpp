@@ -17,7 +17,7 @@ constexpr int find_soft_every = 64;  // steps between two searches for former jo
 constexpr int soften_every = 8;      // ... and between two steps of their softening
 constexpr int fade_every = 8;        // steps between two reductions of the stiffness of beds without bond
 constexpr int balance_every = 32;    // steps between two changes of the shares of threads, ...
-constexpr int timed_every = 4;       // ... and between two steps whose time is taken for them
+constexpr int timed_every = 5;       // ... and between two whose time is taken for them: no multiple of the steps in a macro step
 constexpr int regroup_every = 256;   // steps between two orderings of cracked joints in their packs
 constexpr int activate_every = 256;  // steps between two searches for blocks that have moved far
 std::size_t z(int i) { return std::size_t(i); }
