@@ -139,7 +139,7 @@ void Solver::transitions() {
     return;
   }
   const bool may_release = model_.analysis.debris && joints_.any_cracked() && every(model_.release_every, time);
-  if (has_contacts_) contacts_.end_sums(has_levels(time));
+  if (has_contacts_) contacts_.end_sums(has_levels(time), loads_);
   if (time.step == 0) {  // contacts present at the start, blows soon after it and joints that yield at once limit the first drift
     const double blows = has_contacts_ ? contacts_.bound().event_rate() : 0, rate = std::max(blows, event_rate_at_start());
     if (rate > 0) time.event_dt = 1 / rate;
@@ -302,8 +302,14 @@ void Solver::end_sample(bool wrenches) {
   if (sequential_) std::swap(sequential_->wrench_before(), state_.cache.wrench);
 }
 
-// The impulses on block b in the kick of a sample with levels, beyond its forces times the kick; and the interval before them.
+// The impulses on block b in the kick of a sample with levels, beyond its forces times the kick; and the interval before them. Driven
+// blocks and sleepers take no impulse.
 void Solver::note_excess(int b) {
+  if (model_.kind[z(b)] != Kind::moving || (state_.sleep.count > 0 && state_.sleep.asleep[z(b)] != 0)) {
+    sample_.kick_excess.push_back(Vec6::Zero());
+    sample_.since.push_back(state_.time.last_dt);
+    return;
+  }
   const BlockLevels& levels = contacts_.block_levels();
   Vec6 load = loads_.wrench(b);
   load.head<3>() += model_.mass[z(b)] * (loads_.now().gravity - loads_.now().ground);

@@ -99,7 +99,6 @@ class Solver {
   enum class Part { all, fast, loose };  // of the moving blocks (`ContactBound::divide`)
   double next_dt(double now, double allowed, double event, Part part, int steps, int& since_limited) const;
   double next_dt_of_all();
-  bool breaks_heavily() const;
   void plan_macro_step(const SamplePlan& plan);
   void set_dt(double dt);
   void lap(Phase phase);

@@ -66,6 +66,7 @@ double Solver::next_dt(double now, double allowed, double event, Part part, int 
     dt = on_scale(0.95 * allowed);
     since_limited = 0;
   } else if (now < std::max(allowed, state_.time.dt_target) && (since_limited += steps) > 100) {
+    if (part == Part::loose) allowed = std::min(allowed, contacts_.bound().longest_interval());
     if (allowed > 1.1 * now) dt = std::min(on_scale(0.95 * allowed), 1.5 * now);
     if (!may_grow(now, dt, part)) dt = now;
     since_limited = 0;
@@ -100,24 +101,17 @@ void Solver::set_dt(double dt) {
   time.start_step = time.step;
 }
 
-// True if loose blocks bear forces that would err by much if they ended within the interval that these blocks bear: F^2 H^2 / (8 m). In a
-// house that still breaks they add up to 1e-6 of the energy in each macro step, in its heap to 1e-8. Few joints break less often.
-bool Solver::breaks_heavily() const {
-  const double heavy = model_.njoint > few_joints ? 1e-7 : event_tolerance;
-  const double interval = contacts_.bound().allowed_dt(true);
-  return vibration(Part::loose) * interval * interval / 8 > heavy * state_.energy.reference;
-}
-
 // Step and number of steps of the next macro step (levels.h). Fast and loose blocks have a step each, by the same rule. The shorter one is
 // divided further, if need be, so that the longer one is a multiple of it; the cheapest number of steps counts.
 void Solver::plan_macro_step(const SamplePlan& plan) {
   constexpr double fast_share = 0.15;  // of the time of a whole step, for one without slow pairs; 82 of 480 us in the heap of a house
+  constexpr double worth = 1.2;        // steps: a shorter interval would gain little
   constexpr int wait = 1024;           // macro steps until blocks are divided again
   TimeStep& time = state_.time;
   const ContactBound& bound = contacts_.bound();
   time.next_substeps = 1;
   if (time.macro_steps_since_limited < 0) ++time.macro_steps_since_limited;
-  if (has_contacts_ && bound.is_split() && divides(time) && breaks_heavily()) {
+  if (has_contacts_ && bound.is_split() && divides(time) && bound.longest_interval() < worth * std::max(time.fast_dt, time.dt)) {
     contacts_.join_parts();
     time.macro_steps_since_limited = -wait;
   }
@@ -129,6 +123,10 @@ void Solver::plan_macro_step(const SamplePlan& plan) {
   if (time.fast_dt == 0) time.fast_dt = time.slow_dt = time.dt, time.macro_steps_since_limited = 0;
   time.fast_dt = next_dt(time.fast_dt, bound.allowed_dt(false), time.event_dt, Part::fast, time.substeps, time.steps_since_limited);
   time.slow_dt = next_dt(time.slow_dt, bound.allowed_dt(true), time.slow_event_dt, Part::loose, 1, time.macro_steps_since_limited);
+  if (const double longest = bound.longest_interval(); longest < time.slow_dt) {
+    time.slow_dt = std::max(on_scale(longest), std::min(time.fast_dt, time.slow_dt));
+    time.macro_steps_since_limited = 0;
+  }
   time.next_dt = std::min(time.fast_dt, time.slow_dt);
   // Samples are taken at the start of macro steps: none is left out, and the last one is at the end.
   const double left = plan.end - (time.t + (time.substeps - 1) * time.dt),
@@ -210,7 +208,7 @@ bool Solver::may_grow(double from, double dt, Part part) const {
   if (dt > from && model_.analysis.start == "rest" && as_at_start) return false;
   const double budget = event_tolerance * state_.energy.reference, more = (dt * dt - from * from) / 8;
   if (!(dt > from) || !(budget > 0) || model_.analysis.unstable || sequential_) return true;
-  return more * vibration(part) <= budget;
+  return more * (part == Part::loose ? contacts_.bound().slow_forces() : vibration(part)) <= budget;
 }
 
 // Sum over the blocks of a part of F^2 / m, and of M^T I^-1 M for moments (J/s2).

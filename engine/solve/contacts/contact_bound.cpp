@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "engine/contact/law/impact_bound.h"
+#include "engine/joints/event_bound.h"
 #include "engine/model/levels.h"
 
 namespace erbs {
@@ -16,6 +17,10 @@ namespace {
 // may flutter (`dry_friction.h`). The dashpot of the contact ends the flutter, but an explicit step allows it only c dt / m = 1/4
 // (`pair.cpp`): a viscous ratio of 1 / (8 omega dt), .12 here. The block of V10 with mu = .9 flutters more and more at 1.1, not at .8.
 constexpr double max_slip_omega_dt = 1.0;
+// Share of the energy that forces on loose blocks may err by if they end within an interval H, F^2 H^2 / (8 m): all together, and the part
+// of one block. In a house that breaks they would add up to 1e-6 in each macro step that its contacts bear, most of it on a few blocks.
+// Few joints break less often.
+constexpr double interval_share = 3e-8, few_interval_share = 1e-6, block_share = 1.0 / 16;
 std::size_t z(int i) { return std::size_t(i); }
 
 }  // namespace
@@ -33,7 +38,8 @@ void ContactBound::begin(std::span<const int> blocks) {
   }
 }
 
-void ContactBound::end(const ContactForces& forces, FormerJoints& former, Sleep& sleep, MotionBounds& motion, bool divides) {
+void ContactBound::end(const ContactForces& forces, FormerJoints& former, Sleep& sleep, MotionBounds& motion, const StepLoads& loads,
+                       bool divides) {
   double bears = limit();
   if (limit_.due(bears)) {
     motion.update_all(&sleep);
@@ -41,7 +47,11 @@ void ContactBound::end(const ContactForces& forces, FormerJoints& former, Sleep&
     bears = limit();
   }
   allowed_ = limited_by_passing(limited_by_slip(std::min(limit_.range().longest, bears)), forces, motion);
-  if (divides) divide(forces, former);
+  if (divides) divide(forces, former, loads);
+  else if (is_split()) hasten(forces, loads);
+  slow_forces_ = 0;
+  for (int b = 0; is_split() && b < model_.nblock; ++b)
+    if (loose(b, b)) slow_forces_ += slow_force2_[z(b)];
   for (const bool loose : {false, true})
     if (is_split()) part_[loose].dt = limited_by_passing(part_dt(loose, true), forces, motion);
 }
@@ -112,44 +122,106 @@ void ContactBound::bound_elsewhere() {
   }
 }
 
-// Blocks with joints, or with a pair that is a former joint, are fast. A macro step of m steps leaves the others loose but for a few whose
-// contacts do not bear it; the m with the least evaluations of contacts counts. Where many contacts would be fast, a structure still
-// breaks: forces are large, and longer intervals would leave more in the ledger than they gain (tests/bench/README.md).
-void ContactBound::divide(const ContactForces& forces, const FormerJoints& former) {
-  constexpr double few_pairs = 0.05, many_pairs = 0.25, worth = 0.75;  // of all contacts; of the evaluations without levels
-  constexpr int worth_asking = 16;                                     // steps; more gain little
-  const int most = std::min(worth_asking, most_steps(model_));
+// Blocks with joints, or with a pair that is a former joint, are fast. A macro step leaves the others loose but for a few whose contacts do
+// not bear it; the length with the least evaluations of contacts counts. Where many contacts would be fast, a structure still breaks:
+// forces are large, and longer intervals would leave more in the ledger than they gain (tests/bench/README.md).
+void ContactBound::divide(const ContactForces& forces, const FormerJoints& former, const StepLoads& loads) {
+  constexpr double few_pairs = 0.15, many_pairs = 0.25;  // of all contacts
+  constexpr double worth = 0.92, per_step = 0.05;        // of the time without levels; of a step, in each step of a macro step
+  constexpr int least_pairs = 100;                       // without stiff blocks: with fewer, levels would save next to nothing
+  constexpr int octaves = 4, parts = 16;                 // lengths that are tried: up to 16 steps, by sixteenths of an octave
   PairList& list = state_.contacts.list;
   const double dt = state_.time.fast_dt > 0 ? state_.time.fast_dt : state_.time.dt;
-  std::vector<std::uint8_t> stiff(state_.topology.joined.begin(), state_.topology.joined.begin() + model_.nblock);
+  std::vector<std::uint8_t> stiff(z(model_.nblock), 0);
+  const auto stiffen = [&](int b) { stiff[z(b)] = model_.kind[z(b)] == Kind::moving; };  // supports limit no step
+  for (int b = 0; b < model_.nblock; ++b)
+    if (state_.topology.joined[z(b)]) stiffen(b);
   for (int i = 0; i < int(list.pair.size()); ++i)
-    if (former.of_pair(i).joint >= 0) stiff[z(list.pair[z(i)].a)] = stiff[z(list.pair[z(i)].b)] = 1;
-  bool any = false;
-  std::vector<int> bears(z(model_.nblock), most);  // steps in a macro step
-  for (int b = 0; b < model_.nblock; ++b) {
-    if (model_.kind[z(b)] != Kind::moving) continue;  // supports limit no step
-    any = any || stiff[z(b)];
-    const double allowed = limit_.allowed(limit_.on_block(b, omega2_[z(b)], 0), false);
-    bears[z(b)] = stiff[z(b)] ? 0 : int(std::clamp(0.95 * allowed / dt, 1.0, 1.0 * most));
-  }
-  std::array<int, worth_asking + 1> pairs{};  // by the steps that they bear
+    if (former.of_pair(i).joint >= 0) stiffen(list.pair[z(i)].a), stiffen(list.pair[z(i)].b);
+  square_slow_forces(forces, loads, [&](int a, int b) { return !stiff[z(a)] && !stiff[z(b)]; });
+  std::vector<int> steps_of(z(model_.nblock), octaves * parts);  // sixteenths of an octave above dt; -1: stiff
+  const auto bear = [&](int b, double step) {
+    steps_of[z(b)] = std::min(steps_of[z(b)], std::max(0, int(parts * std::log2(0.95 * step / dt))));
+  };
+  for (int b = 0; b < model_.nblock; ++b)
+    if (stiff[z(b)]) steps_of[z(b)] = -1;
+    else if (model_.kind[z(b)] == Kind::moving) bear(b, bears(b));
+  for (const ContactForces::ThreadPairs& found : forces.results())
+    for (const ContactForces::Force& one : found.forces)
+      if (one.result.slip_omega2 > 0) bear(list.pair[z(one.pair)].b, limited_by_slip(dt * (1 << octaves), one.result.slip_omega2));
+  std::array<int, 2 + octaves * parts> pairs{};  // by what they bear, stiff ones first
   for (const ContactForces::ThreadPairs& found : forces.results())
     for (const ContactForces::Force& one : found.forces) {
       const ContactPair& pair = list.pair[z(one.pair)];
-      ++pairs[z(std::min(bears[z(pair.a)], bears[z(pair.b)]))];
+      ++pairs[z(1 + std::min(steps_of[z(pair.a)], steps_of[z(pair.b)]))];
     }
   const int all = std::accumulate(pairs.begin(), pairs.end(), 0);
   list.fast.clear();
-  if (!any || pairs[0] > many_pairs * all) return;
+  const bool any_stiff = std::ranges::count(stiff, 1) > 0;
+  if (pairs[0] > many_pairs * all || (!any_stiff && all < least_pairs)) return;
   double least = worth;
-  int best = 1, short_of = 0;
-  for (int m = 2; m <= most; ++m) {
-    if ((short_of += pairs[z(m - 1)]) > few_pairs * all) break;
-    const double share = (all + double(m - 1) * (pairs[0] + short_of)) / (double(m) * all);
-    if (share < least) least = share, best = m;
+  int best = 0, short_of = 0;
+  for (int i = 1; i <= octaves * parts; ++i) {
+    const double length = std::exp2(double(i) / parts), steps = std::ceil(length - 1e-9);
+    short_of += pairs[z(i)];
+    if (steps > most_steps(model_) || short_of > few_pairs * all) break;
+    const double share = (1 + (steps - 1) * (per_step + double(pairs[0] + short_of) / all)) / length;
+    if (share < least) least = share, best = i;
   }
-  if (best == 1) return;
-  for (const int steps : bears) list.fast.push_back(steps < best);
+  if (best == 0) return;
+  for (const int b : steps_of) list.fast.push_back(b < best);
+}
+
+// Between two divisions: loose blocks that no longer bear the macro step become fast, as long as they are few.
+void ContactBound::hasten(const ContactForces& forces, const StepLoads& loads) {
+  constexpr double few_blocks = 0.1;
+  PairList& list = state_.contacts.list;
+  square_slow_forces(forces, loads, [&](int a, int b) { return loose(a, b); });
+  int room = int(few_blocks * double(list.fast.size())) - int(std::ranges::count(list.fast, hastened));
+  for (const int b : sleep_.in_live_pairs()) {
+    if (room <= 0) return;
+    if (model_.kind[z(b)] != Kind::moving || list.fast[z(b)]) continue;
+    if (bears(b) < state_.time.slow_dt) list.fast[z(b)] = hastened, --room;
+  }
+}
+
+// s, interval of a loose block: what its contacts and the faces that may strike it allow, and its slow forces.
+double ContactBound::bears(int b) const {
+  const double forces = slow_force2_[z(b)];
+  const double allowed = limit_.allowed(limit_.on_block(b, omega2_[z(b)], impact_omega2_[z(b)]), false);
+  return forces > 0 ? std::min(allowed, std::sqrt(8 * block_share * interval_allowance() / forces)) : allowed;
+}
+
+double ContactBound::interval_allowance() const {  // J
+  return (model_.njoint > few_joints ? interval_share : few_interval_share) * state_.energy.reference;
+}
+
+double ContactBound::longest_interval() const {
+  return slow_forces_ > 0 ? std::sqrt(8 * interval_allowance() / slow_forces_) : std::numeric_limits<double>::infinity();
+}
+
+// Of slow pairs and of the loads, which act with them. A block between a fast pair and a slow one bears large forces of both, though their
+// sum may be small: what errs is that the slow one acts once and the fast one often.
+template <class Slow>
+void ContactBound::square_slow_forces(const ContactForces& forces, const StepLoads& loads, Slow slow) {
+  slow_wrench_.assign(z(model_.nblock), Vec6::Zero());
+  slow_force2_.assign(z(model_.nblock), 0.0);
+  for (const ContactForces::ThreadPairs& found : forces.results())
+    for (const auto& [i, r] : found.forces) {
+      const ContactPair& pair = state_.contacts.list.pair[z(i)];
+      if (!slow(pair.a, pair.b)) continue;
+      slow_wrench_[z(pair.a)].head<3>() -= r.wrench.force, slow_wrench_[z(pair.a)].tail<3>() += r.wrench.moment_a;
+      slow_wrench_[z(pair.b)].head<3>() += r.wrench.force, slow_wrench_[z(pair.b)].tail<3>() += r.wrench.moment_b;
+    }
+  for (const int b : sleep_.in_live_pairs()) {
+    if (model_.kind[z(b)] != Kind::moving || sleep_.asleep(b)) continue;
+    if (sleep_.has_resting()) slow_wrench_[z(b)] += Eigen::Map<const Vec6>(sleep_.resting_wrench(b));
+    slow_wrench_[z(b)] += loads.wrench(b);
+    slow_wrench_[z(b)].head<3>() += model_.mass[z(b)] * weight_share(model_, b) * (loads.now().gravity - loads.now().ground);
+    const Vec3 moment = bodies_.block[z(b)].rotation.transpose() * slow_wrench_[z(b)].tail<3>();
+    slow_force2_[z(b)] =
+        model_.inverse_mass[z(b)] * slow_wrench_[z(b)].head<3>().squaredNorm() + moment.dot(model_.inverse_inertia[z(b)] * moment);
+  }
 }
 
 double ContactBound::part_dt(bool loose, bool impacts) const {

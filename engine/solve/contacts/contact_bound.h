@@ -8,6 +8,7 @@
 
 #include "engine/contact/overlap/overlap.h"
 #include "engine/model/state.h"
+#include "engine/solve/blocks/step_loads.h"
 #include "engine/solve/contacts/contact_forces.h"
 #include "engine/solve/contacts/former_joints.h"
 #include "engine/solve/contacts/motion_bounds.h"
@@ -55,7 +56,7 @@ class ContactBound {
       part_[i].pairs += more[i].pairs;
     }
   }
-  void end(const ContactForces& forces, FormerJoints& former, Sleep& sleep, MotionBounds& motion, bool divides);
+  void end(const ContactForces& forces, FormerJoints& former, Sleep& sleep, MotionBounds& motion, const StepLoads& loads, bool divides);
   // `end()` may divide the blocks in two parts, each with a bound of its own (model/levels.h): fast ones, with joints or former joints or
   // with contacts that bear only a short step, and loose ones. All is one part where little would be gained.
   bool is_split() const { return !state_.contacts.list.fast.empty(); }
@@ -74,11 +75,20 @@ class ContactBound {
   // 1/s: one over the step that the next openings and closings allow (`event_bound.h`)
   double event_rate() const { return std::max(part_[0].event_rate, part_[1].event_rate); }
   double event_rate(bool loose) const { return is_split() ? part_[loose].event_rate : loose ? 0 : event_rate(); }
+  // J/s2, sum over loose blocks of F^2 / m + M^T I^-1 M by slow pairs; s, the interval at which they err by little
+  double slow_forces() const { return slow_forces_; }
+  double longest_interval() const;
   int pairs(bool loose) const { return part_[loose].pairs; }  // with forces
 
  private:
+  static constexpr std::uint8_t hastened = 2;  // in `PairList::fast`: since the last division
   void update(const ContactForces& forces, FormerJoints& former, Sleep& sleep);
-  void divide(const ContactForces& forces, const FormerJoints& former);
+  void divide(const ContactForces& forces, const FormerJoints& former, const StepLoads& loads);
+  void hasten(const ContactForces& forces, const StepLoads& loads);
+  template <class Slow>
+  void square_slow_forces(const ContactForces& forces, const StepLoads& loads, Slow slow);
+  double bears(int b) const;
+  double interval_allowance() const;
   double part_dt(bool loose, bool impacts) const;
   double limit() const;  // s, time step that contacts and joints allow, ...
   // s, ... and slipping patches
@@ -96,7 +106,10 @@ class ContactBound {
   std::vector<double> omega2_;         // 1/s2, of contacts beyond the bound of `limit_` [nblock]
   std::vector<double> impact_omega2_;  // 1/s2, of the stiffest face that may strike the block next; there is room for only one [nblock]
   Parts part_;
-  double elsewhere_ = 0;  // 1/s2, greatest `on_block()` of blocks without a live pair
+  std::vector<Vec6> slow_wrench_;    // N, N m, of slow pairs [nblock]
+  std::vector<double> slow_force2_;  // J/s2, F^2 / m + M^T I^-1 M of it [nblock]
+  double slow_forces_ = 0;           // J/s2, sum over loose blocks
+  double elsewhere_ = 0;             // 1/s2, greatest `on_block()` of blocks without a live pair
   double allowed_ = 0;
   double thinnest_ = 0;  // m, thinnest extent of all blocks
 };

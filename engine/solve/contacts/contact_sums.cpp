@@ -107,7 +107,7 @@ void ContactSums::add_totals(bool levels, bool sample) {
 }
 
 void ContactSums::end() {
-  relisted_ = false;
+  relisted_ = kick_relisted_ = false;
   of_.bound.begin_totals();
   touching_ = of_.sleep.touching();
   double& penetration = of_.state.observed.max_penetration_relative;
@@ -123,7 +123,7 @@ void ContactSums::end() {
 }
 
 void ContactSums::add_up_substep(std::span<const int> blocks, double* kick) {
-  const bool relisted = std::exchange(relisted_, false);  // after a resumption within a macro step, or a release at its start
+  const bool relisted = std::exchange(kick_relisted_, false);  // after a resumption within a macro step, or a release at its start
   if (relisted) start_all_rows({0, of_.model.nblock}, kick);
   // The other blocks keep the rows of the first step: none but fast pairs acts.
   start_rows(relisted || of_.state.time.substep == 1 ? std::span<const int>(of_.sleep.in_live_pairs()) : blocks, kick);

@@ -35,7 +35,7 @@ class ContactSums {
   };
   ContactSums(const Of& of, int threads) : of_(of), condensed_(std::size_t(threads)) {}
 
-  void list_pairs() { relisted_ = true; }  // all rows start anew in the next step
+  void list_pairs() { relisted_ = kick_relisted_ = true; }  // all rows start anew in the next step
   // At the start of a macro step. `condense()` by each thread after the forces of its pairs; when all have done so `add_up()` by each
   // thread for its blocks, and `add_totals()` by one of them; then `end()` while it is alone. `kick`: as `contact_wrench`, each pair times
   // its impulse over that of a step, null without levels (model/levels.h).
@@ -67,7 +67,7 @@ class ContactSums {
 
   Of of_;
   std::vector<Condensed> condensed_;
-  bool relisted_ = true;
+  bool relisted_ = true, kick_relisted_ = true;
   double elastic_ = 0, kinetic_correction_ = 0;
   int touching_ = 0;
   long touched_ = 0;

@@ -179,11 +179,11 @@ bool Contacts::sleep(const Excitation& now, const double* contact_wrench) {
   return changed;
 }
 
-void Contacts::end_sums(bool levels) {
+void Contacts::end_sums(bool levels, const StepLoads& loads) {
   sums_.end();
   if (levels) start_macro_step();
   forces_.balance_threads();
-  bound_.end(forces_, former_, sleep_, motion_, may_have_levels_ && divides(state_.time));
+  bound_.end(forces_, former_, sleep_, motion_, loads, may_have_levels_ && divides(state_.time));
 }
 
 std::vector<std::uint8_t> Contacts::blocks_with_slow_pair() const {

@@ -41,7 +41,7 @@ class Contacts {
   // Then, at the start of a macro step, all threads add up `sums()`. `end_sums()` makes pairs slow or fast for the macro step, and finds
   // the time step that they allow.
   ContactSums& sums() { return sums_; }
-  void end_sums(bool levels);
+  void end_sums(bool levels, const StepLoads& loads);
   void add_up_substep(double* kick);                                 // within a macro step: of the pairs that act in this step
   const BlockLevels& block_levels() const { return block_levels_; }  // of loads
   void join_parts() { state_.contacts.list.fast.clear(); }           // all pairs act in every step of the next macro step

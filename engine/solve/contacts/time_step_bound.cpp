@@ -91,19 +91,20 @@ void ContactLimit::add_joints() {
 // (1/s2), become heavier, round by round: up to half of their bound goes over to their neighbours, and all of that to the ground. The best
 // round counts.
 std::vector<double> ContactLimit::by_weights(std::span<const ContactBlock> blocks, std::span<const double> scalars, double enough) {
-  constexpr int rounds = 4;
-  constexpr double reachable = 0.52;  // of the greatest bound
+  constexpr int rounds = 8;
+  constexpr double reachable = 0.52;  // of the bound of a block with weights of 1
   std::vector<Mat6> k(blocks.size(), Mat6::Zero());
   for (const Spring& s : springs_) k[z(s.a)] += s.on_a, k[z(s.b)] += s.on_b;
   std::vector<double> best = by_matrices(blocks, k);
   // Scalars stand for weights of 1: a block that is weighed anew, or beside one, loses them.
   for (std::size_t b = 0; b < scalars.size(); ++b) best[b] = std::min(best[b], inverse_square(scalars[b], safe_share));
-  const double goal = std::max(enough, reachable * *std::ranges::max_element(best));
+  const std::vector<double> equal = best;
+  const double goal = enough;
   std::vector<int> heavy;
   const auto find_heavy = [&](const std::vector<double>& bound) {
     heavy.clear();
     for (int b = 0; b < model_.nblock; ++b)
-      if (bound[z(b)] > goal) heavy.push_back(b);
+      if (bound[z(b)] > std::max(goal, 1.06 * reachable * equal[z(b)])) heavy.push_back(b);
   };
   find_heavy(best);
   if (heavy.empty()) return best;
@@ -123,7 +124,7 @@ std::vector<double> ContactLimit::by_weights(std::span<const ContactBlock> block
   for (int round = 0; round < rounds && !heavy.empty(); ++round) {
     std::vector<int> changed = heavy;
     for (const int b : heavy) {
-      weight[z(b)] *= bound[z(b)] / goal;
+      weight[z(b)] *= bound[z(b)] / std::max(goal, reachable * equal[z(b)]);
       for (const int i : springs_of[z(b)]) changed.push_back(springs_[z(i)].a == b ? springs_[z(i)].b : springs_[z(i)].a);
     }
     std::ranges::sort(changed);
