@@ -13,6 +13,7 @@
 #include "engine/base/system/streams.h"
 #include "engine/base/text.h"
 #include "engine/record/folder/manifest.h"
+#include "lua/commands/help.h"
 #include "lua/program/command_line.h"
 #include "lua/program/overrides.h"
 #include "lua/program/say.h"
@@ -85,7 +86,11 @@ int call(const CLI::App& app, const CommandLine& line) {
   // CLI11 prints the help of a verb
   if (!words.empty())
     for (const CLI::App* other : app.get_subcommands({}))
-      if (other->get_name() == words.front()) return (say("{}", other->help("erbs")), exit_ok);
+      if (other->get_name() == words.front()) {
+        say("{}", other->help("erbs"));
+        if (is_function(words.front())) say("In a scene:\n\n{}", function_help(words.front()));
+        return exit_ok;
+      }
   // not app.help(), which would print the help of the verb help
   return verb_help(words, app.get_formatter()->make_help(&app, "erbs", CLI::AppFormatMode::Normal));
 }

@@ -133,6 +133,24 @@ void hold_use_limit(const Scene& scene, const Prepared& p) {
           use.place);
 }
 
+bool starts_loaded(const Model& m) { return m.gravity.norm() > 0 || !m.force_loads.empty(); }
+
+// Refuses initial poses that the equilibrium of joined blocks would undo.
+void refuse_lost_poses(const Scene& scene, const Prepared& p) {
+  const Model& m = p.model;
+  if (scene.analysis.start == "rest" || !starts_loaded(m)) return;
+  for (int b = 0; b < m.nblock; ++b) {
+    const Block& block = scene.blocks[z(b)];
+    const Initial& initial = block.initial();
+    const bool placed = !initial.position.isZero(0) || !initial.rotation.isZero(0);
+    if (!placed || m.kind[z(b)] != Kind::moving || !p.state.topology.grounded[z(b)]) continue;
+    throw Error(fmt::format("block \"{}\" starts beside its place (initial position or rotation), and start = \"{}\" would move it back to "
+                            "where its joints bear it; say analysis{{ start = \"rest\" }}",
+                            block.name, scene.analysis.start),
+                block.place);
+  }
+}
+
 std::vector<double> constant_loads(const Model& m, const State& s) {
   std::vector<double> loads(6 * z(m.nblock) + 6, 0.0);
   for (const auto& p : m.force_loads) {
@@ -186,6 +204,7 @@ Prepared prepare(const Scene& scene, bool allow_unstable) {
   if (scene.push.quasi_static()) p.model.analysis.levels = 1;
   check_shapes(scene, p.model);
   find_islands(p.model, p.state);
+  refuse_lost_poses(scene, p);
   update_all_references(p.model, p.state);
   p.bounds = step_bounds(p.model, p.state);
   p.range.critical = p.bounds.cracked;
@@ -203,7 +222,7 @@ constexpr double ramp_seconds = 0.2, ramp_limit = 25;  // s, default duration of
 // a tenth of a millimetre during a shock.
 constexpr double rest_energy = 1e-8;
 
-// Blocks that still move, and blocks that fall: lower than at the start by half their smallest edge, the criterion of `Collapse`.
+// Blocks that still move, and blocks that fall: lower than at the start by half their thinnest extent, the criterion of `Collapse`.
 class Unrest {
  public:
   Unrest(const Model& m, const State& s) : model_(m), state_(s), start_(s.pose.u), down_(m.gravity.normalized()) {
@@ -216,7 +235,7 @@ class Unrest {
     const double g = m.gravity.norm() > 0 ? m.gravity.norm() : standard_g;  // for loads without gravity, its usual value
     square_ = 2 * rest_energy * g * std::max(0.0, high - low);
   }
-  bool falls(int b) const { return down_.dot(state_.pose.u[z(b)] - start_[z(b)]) > 0.5 * model_.smallest_edge[z(b)]; }
+  bool falls(int b) const { return down_.dot(state_.pose.u[z(b)] - start_[z(b)]) > 0.5 * model_.thickness[z(b)]; }
   bool moves(int b) const {
     const double rotation_energy = state_.motion.w[z(b)].dot(state_.motion.spin_momentum[z(b)]) / model_.mass[z(b)];
     return state_.motion.v[z(b)].squaredNorm() + rotation_energy > square_;
@@ -321,8 +340,7 @@ Metrics::Equilibrium equilibrium_metrics(const Prepared& p) {
 
 void start_at_rest(const Scene& scene, Prepared& p, int threads) {
   const auto began = std::chrono::steady_clock::now();
-  const bool loaded = p.model.gravity.norm() > 0 || !p.model.force_loads.empty();
-  if (scene.analysis.start == "equilibrium" && loaded && p.model.njoint > 0) {
+  if (scene.analysis.start == "equilibrium" && starts_loaded(p.model) && p.model.njoint > 0) {
     for (int iteration = 0; iteration < 3; ++iteration) {  // arms of the loads rotate with their blocks
       p.equilibrium = settle(p.model, p.state, constant_loads(p.model, p.state));
       if (p.model.force_loads.empty()) break;

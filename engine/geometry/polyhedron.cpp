@@ -253,6 +253,19 @@ double thickness(const Polyhedron& p) {
   return least;
 }
 
+double thickness(const Parts& parts) {
+  if (parts.size() == 1) return thickness(parts[0]);
+  double least = std::numeric_limits<double>::infinity();
+  for (const Polyhedron& part : parts)
+    for (const Plane& plane : planes(part)) {
+      double low = std::numeric_limits<double>::infinity(), high = -low;
+      for (const Polyhedron& other : parts)
+        for (const Vec3& v : other.vertices) low = std::min(low, plane.n.dot(v)), high = std::max(high, plane.n.dot(v));
+      least = std::min(least, high - low);
+    }
+  return least;
+}
+
 Polyhedron box_polyhedron(const Vec3& low, const Vec3& high) {
   Polyhedron p;
   p.vertices.reserve(8);

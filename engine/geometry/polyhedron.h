@@ -50,6 +50,7 @@ Vec3 mean_vertex(const Polyhedron& p);
 double smallest_edge(const Polyhedron& p);  // m
 // Smallest distance (m) between two parallel planes that enclose p, over its face normals.
 double thickness(const Polyhedron& p);
+double thickness(const Parts& parts);  // m, the same of all parts together, across one of their faces
 // An axis-parallel box with the given corners.
 Polyhedron box_polyhedron(const Vec3& low, const Vec3& high);
 

@@ -1,8 +1,8 @@
-// Two levels of time while blocks with joints keep the step short: contacts between other blocks act once in several steps (impulse
-// multiple time stepping, Verlet-I or r-RESPA: Grubmueller, Heller, Windemuth and Schulten 1991; Tuckerman, Berne and Martyna 1992).
+// Two levels of time while a few blocks keep the step short: contacts between other blocks act once in several steps (impulse multiple time
+// stepping, Verlet-I or r-RESPA: Grubmueller, Heller, Windemuth and Schulten 1991; Tuckerman, Berne and Martyna 1992).
 //
 // A macro step of `TimeStep::substeps` steps begins with an evaluation of all interactions. Joints act in every step, and so do pairs with
-// a fast block: one that has a joint or a former joint, or whose contacts bear no longer step (`ContactBound::divide`). A pair of two
+// a fast block: one that has a joint or a former joint, or that bears no longer step (`ContactBound::divide`, `hasten`). A pair of two
 // other, loose blocks is slow: it acts at the start of the macro step, with the impulse of all its steps. Loads and ground motion act on a
 // block together with its slow pairs, else in every step (block_levels.h). Where an interval changes, the impulse has the mean of the last
 // and the next interval, as the kick of the integrator has. With one step in a macro step this is the integrator of integrate.h to the last
@@ -11,7 +11,8 @@
 // Work. A kick J changes the kinetic energy by J (v- + v+) / 2. So the second half of the work of friction and dashpots is booked with the
 // velocity right after the kick (`ContactForces::book_after_kick`). Elastic energy is a function of the pose. What is left in the ledger is
 // the error of the integrator: (F_N - F_n) . a H^2 / 4 for an impulse interval H and the acceleration a by faster forces. It is zero to
-// round-off for linear springs of one interval.
+// round-off for linear springs of one interval. In a blow both forces rise together, to a sum of F^2 H^2 / (8 m). So each block bears only
+// an interval at which its slow forces err by little (`ContactBound::bears`).
 //
 // Resonance. Impulses of a slow spring excite a mode of frequency w when w H comes near a multiple of pi (Biesiadecki and Skeel 1993; Fong,
 // Darve and Lew 2008). The macro step is therefore bounded by all that acts on a loose block, fast pairs included, at the same share of the

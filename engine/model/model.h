@@ -72,7 +72,8 @@ struct Model {
   // Gravity and the acceleration of the ground act on a block with this factor: its weight over g times `mass`, where a relaxation has
   // scaled the masses (analysis/quasi_static). Empty: 1.
   std::vector<double> gravity_factor;
-  std::vector<double> smallest_edge;  // m, thinnest extent: the scale of drift, falling and penetration
+  std::vector<double> smallest_edge;  // m, thinnest extent of a part: the scale of penetration
+  std::vector<double> thickness;      // m, thinnest extent of the whole block: the scale of falling
   std::vector<int> material;
   // joints, sorted by lower block, higher block and their parts         [njoint]
   std::vector<Joint> joint;

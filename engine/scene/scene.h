@@ -207,8 +207,8 @@ struct Analysis {
         {"energy_gate", &Analysis::energy_tolerance, "", "largest relative energy residual of an accurate run (0: by the kind of run)", 0,
          1e6},
         {"levels", &Analysis::levels, "",
-         "time levels: contacts of loose blocks act once in 2^(levels - 1) steps at most, while joints keep the step short; 1: in every "
-         "step (default 4)",
+         "time levels: contacts of loose blocks act once in 2^(levels - 1) steps at most, where a few other blocks keep the step short; 1: "
+         "in every step (default 4)",
          1, 8},
         {"lazy_rotation", &Analysis::lazy_rotation, "rad", "block rotation between updates of joint frames", 0, 0.1},
         {"gyroscopic", &Analysis::gyroscopic, "", "the gyroscopic term w x (I w)"},

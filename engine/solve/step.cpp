@@ -127,7 +127,7 @@ void Solver::add_up_contacts(int thread) {
   const Range groups = contact_shares_.slice(int(constants_.size()), block_grain, thread);
   const Range blocks{std::min(groups.first * pack_size, model_.nblock), std::min(groups.last * pack_size, model_.nblock)};
   ContactSums& sums = contacts_.sums();
-  sums.add_up(blocks, contact_wrench_.data(), has_levels(state_.time) ? contact_kick_.data() : nullptr);
+  sums.add_up(blocks, loads_, contact_wrench_.data(), has_levels(state_.time) ? contact_kick_.data() : nullptr);
   if (thread == 0) sums.add_totals(has_levels(state_.time), sampling());
 }
 

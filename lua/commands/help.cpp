@@ -275,6 +275,10 @@ std::vector<Function> all_functions() {
   return all;
 }
 
+bool is_function(const std::string& name) {
+  return std::ranges::any_of(all_functions(), [&](const Function& function) { return function.name == name; });
+}
+
 std::string function_help(const std::string& name) {
   std::vector<std::string> known;
   for (const Function& function : all_functions()) {

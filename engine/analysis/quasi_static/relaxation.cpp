@@ -272,7 +272,7 @@ bool Relaxation::far(const State& s, const BlockVec3& from, double share, double
   for (int b = 0; b < model_.nblock; ++b) {
     if (model_.kind[z(b)] != Kind::moving) continue;
     const double moved = (s.pose.u[z(b)] - from[z(b)]).norm();
-    far = far || moved > std::max(share * model_.smallest_edge[z(b)], least);
+    far = far || moved > std::max(share * model_.thickness[z(b)], least);
     if (moved > out.moved) out.moved = moved, out.furthest = b;
   }
   return far;

@@ -38,6 +38,7 @@ void add_blocks(const Scene& scene, Model& m) {
     double edge = infinite;
     for (const Polyhedron& part : block.parts) { edge = std::min(edge, thickness(part)); }
     m.smallest_edge.push_back(edge);
+    m.thickness.push_back(thickness(block.parts));
     m.parts.push_back(block.parts);
     m.material.push_back(block.material);
   }

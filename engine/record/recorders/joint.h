@@ -20,9 +20,9 @@ struct JointQuantity {
   static std::vector<Quantity> quantities() {
     return {{"opening", "largest opening of the joints (m)"},
             {"slip", "largest slip of the joints (m)"},
-            {"normal_force", "force across the joints, summed, tension positive (N)"},
-            {"shear_force", "length of the sum of the forces along the joints (N)"},
-            {"joint_moment", "moment of the joints on the blocks, about the common centre of the joints at rest (N m)"},
+            {"normal_force", "force across the joints, summed, tension positive (N); zero once contact has replaced a joint"},
+            {"shear_force", "length of the sum of the forces along the joints (N); likewise"},
+            {"joint_moment", "moment of the joints on the blocks, about the common centre of the joints at rest (N m); likewise"},
             {"damage", "share of the joints' area that is damaged, 0 to 1"},
             {"broken", "number of joints with no bond left"},
             {"normal_stress",

@@ -6,7 +6,7 @@ namespace erbs {
 namespace {
 
 bool down(const Collapse& collapse, const Model& model, const BlockPoses& pose, std::size_t b) {
-  return model.kind[b] == Kind::moving && collapse.start[b] - pose.u[b].z() > 0.5 * model.smallest_edge[b];
+  return model.kind[b] == Kind::moving && collapse.start[b] - pose.u[b].z() > 0.5 * model.thickness[b];
 }
 
 }  // namespace

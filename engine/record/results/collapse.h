@@ -1,5 +1,5 @@
 // Criterion of collapse. A block has fallen if its centroid is lower than at the start, relative to the ground, by more than half its
-// smallest edge. The structure has collapsed if the fallen share of the moving mass reaches `Analysis::collapse_fraction`.
+// thinnest extent. The structure has collapsed if the fallen share of the moving mass reaches `Analysis::collapse_fraction`.
 #pragma once
 #include <array>
 #include <cstdint>

@@ -28,6 +28,8 @@ std::size_t z(int i) { return std::size_t(i); }
 void ContactBound::initialise() {
   omega2_.assign(z(model_.nblock), 0.0);
   impact_omega2_.assign(z(model_.nblock), 0.0);
+  slow_wrench_.assign(z(model_.nblock), Vec6::Zero());
+  slow_force2_.assign(z(model_.nblock), 0.0);
   thinnest_ = *std::ranges::min_element(model_.smallest_edge);
 }
 
@@ -48,7 +50,7 @@ void ContactBound::end(const ContactForces& forces, FormerJoints& former, Sleep&
   }
   allowed_ = limited_by_passing(limited_by_slip(std::min(limit_.range().longest, bears)), forces, motion);
   if (divides) divide(forces, former, loads);
-  else if (is_split()) hasten(forces, loads);
+  else if (is_split()) hasten();
   slow_forces_ = 0;
   for (int b = 0; is_split() && b < model_.nblock; ++b)
     if (loose(b, b)) slow_forces_ += slow_force2_[z(b)];
@@ -127,7 +129,7 @@ void ContactBound::bound_elsewhere() {
 // forces are large, and longer intervals would leave more in the ledger than they gain (tests/bench/README.md).
 void ContactBound::divide(const ContactForces& forces, const FormerJoints& former, const StepLoads& loads) {
   constexpr double few_pairs = 0.15, many_pairs = 0.25;  // of all contacts
-  constexpr double worth = 0.92, per_step = 0.05;        // of the time without levels; of a step, in each step of a macro step
+  constexpr double worth = 0.8, per_step = 0.15;         // of the time without levels; of a step, in each step of a macro step
   constexpr int least_pairs = 100;                       // without stiff blocks: with fewer, levels would save next to nothing
   constexpr int octaves = 4, parts = 16;                 // lengths that are tried: up to 16 steps, by sixteenths of an octave
   PairList& list = state_.contacts.list;
@@ -138,7 +140,7 @@ void ContactBound::divide(const ContactForces& forces, const FormerJoints& forme
     if (state_.topology.joined[z(b)]) stiffen(b);
   for (int i = 0; i < int(list.pair.size()); ++i)
     if (former.of_pair(i).joint >= 0) stiffen(list.pair[z(i)].a), stiffen(list.pair[z(i)].b);
-  square_slow_forces(forces, loads, [&](int a, int b) { return !stiff[z(a)] && !stiff[z(b)]; });
+  find_slow_forces(forces, loads, [&](int a, int b) { return !stiff[z(a)] && !stiff[z(b)]; });
   std::vector<int> steps_of(z(model_.nblock), octaves * parts);  // sixteenths of an octave above dt; -1: stiff
   const auto bear = [&](int b, double step) {
     steps_of[z(b)] = std::min(steps_of[z(b)], std::max(0, int(parts * std::log2(0.95 * step / dt))));
@@ -173,10 +175,9 @@ void ContactBound::divide(const ContactForces& forces, const FormerJoints& forme
 }
 
 // Between two divisions: loose blocks that no longer bear the macro step become fast, as long as they are few.
-void ContactBound::hasten(const ContactForces& forces, const StepLoads& loads) {
+void ContactBound::hasten() {
   constexpr double few_blocks = 0.1;
   PairList& list = state_.contacts.list;
-  square_slow_forces(forces, loads, [&](int a, int b) { return loose(a, b); });
   int room = int(few_blocks * double(list.fast.size())) - int(std::ranges::count(list.fast, hastened));
   for (const int b : sleep_.in_live_pairs()) {
     if (room <= 0) return;
@@ -200,27 +201,30 @@ double ContactBound::longest_interval() const {
   return slow_forces_ > 0 ? std::sqrt(8 * interval_allowance() / slow_forces_) : std::numeric_limits<double>::infinity();
 }
 
-// Of slow pairs and of the loads, which act with them. A block between a fast pair and a slow one bears large forces of both, though their
-// sum may be small: what errs is that the slow one acts once and the fast one often.
+// For a division of the blocks, with the pairs that would be slow.
 template <class Slow>
-void ContactBound::square_slow_forces(const ContactForces& forces, const StepLoads& loads, Slow slow) {
+void ContactBound::find_slow_forces(const ContactForces& forces, const StepLoads& loads, Slow slow) {
   slow_wrench_.assign(z(model_.nblock), Vec6::Zero());
   slow_force2_.assign(z(model_.nblock), 0.0);
   for (const ContactForces::ThreadPairs& found : forces.results())
     for (const auto& [i, r] : found.forces) {
       const ContactPair& pair = state_.contacts.list.pair[z(i)];
-      if (!slow(pair.a, pair.b)) continue;
-      slow_wrench_[z(pair.a)].head<3>() -= r.wrench.force, slow_wrench_[z(pair.a)].tail<3>() += r.wrench.moment_a;
-      slow_wrench_[z(pair.b)].head<3>() += r.wrench.force, slow_wrench_[z(pair.b)].tail<3>() += r.wrench.moment_b;
+      if (slow(pair.a, pair.b)) add_slow_to_a(pair.a, r.wrench), add_slow_to_b(pair.b, r.wrench);
     }
-  for (const int b : sleep_.in_live_pairs()) {
+  square_slow_forces(sleep_.in_live_pairs(), loads);
+}
+
+// Of slow pairs and of the loads, which act with them. A block between a fast pair and a slow one bears large forces of both, though their
+// sum may be small: what errs is that the slow one acts once and the fast one often.
+void ContactBound::square_slow_forces(std::span<const int> blocks, const StepLoads& loads) {
+  for (const int b : blocks) {
     if (model_.kind[z(b)] != Kind::moving || sleep_.asleep(b)) continue;
-    if (sleep_.has_resting()) slow_wrench_[z(b)] += Eigen::Map<const Vec6>(sleep_.resting_wrench(b));
-    slow_wrench_[z(b)] += loads.wrench(b);
-    slow_wrench_[z(b)].head<3>() += model_.mass[z(b)] * weight_share(model_, b) * (loads.now().gravity - loads.now().ground);
-    const Vec3 moment = bodies_.block[z(b)].rotation.transpose() * slow_wrench_[z(b)].tail<3>();
-    slow_force2_[z(b)] =
-        model_.inverse_mass[z(b)] * slow_wrench_[z(b)].head<3>().squaredNorm() + moment.dot(model_.inverse_inertia[z(b)] * moment);
+    Vec6& slow = slow_wrench_[z(b)];
+    if (sleep_.has_resting()) slow += Eigen::Map<const Vec6>(sleep_.resting_wrench(b));
+    if (loads.rows() != nullptr) slow += loads.wrench(b);
+    slow.head<3>() += model_.mass[z(b)] * weight_share(model_, b) * (loads.now().gravity - loads.now().ground);
+    const Vec3 moment = bodies_.block[z(b)].rotation.transpose() * slow.tail<3>();
+    slow_force2_[z(b)] = model_.inverse_mass[z(b)] * slow.head<3>().squaredNorm() + moment.dot(model_.inverse_inertia[z(b)] * moment);
   }
 }
 

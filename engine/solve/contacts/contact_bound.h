@@ -38,6 +38,17 @@ class ContactBound {
     sum += std::max(0.0, omega2);
     impact = std::max(impact, impact_omega2);
   }
+  // Forces of slow pairs, summed by each thread for its blocks, if `is_split()`.
+  void begin_slow(std::span<const int> blocks) {
+    for (const int b : blocks) slow_wrench_[std::size_t(b)].setZero(), slow_force2_[std::size_t(b)] = 0;
+  }
+  void add_slow_to_a(int a, const PairWrench& w) {
+    slow_wrench_[std::size_t(a)].head<3>() -= w.force, slow_wrench_[std::size_t(a)].tail<3>() += w.moment_a;
+  }
+  void add_slow_to_b(int b, const PairWrench& w) {
+    slow_wrench_[std::size_t(b)].head<3>() += w.force, slow_wrench_[std::size_t(b)].tail<3>() += w.moment_b;
+  }
+  void square_slow_forces(std::span<const int> blocks, const StepLoads& loads);
   void begin_totals() { part_ = {}; }
   void add(const MotionBounds::PairBound& pair, const PairResult& r, Parts& to) const {
     Part& part = to[loose(pair.a, pair.b)];
@@ -84,9 +95,9 @@ class ContactBound {
   static constexpr std::uint8_t hastened = 2;  // in `PairList::fast`: since the last division
   void update(const ContactForces& forces, FormerJoints& former, Sleep& sleep);
   void divide(const ContactForces& forces, const FormerJoints& former, const StepLoads& loads);
-  void hasten(const ContactForces& forces, const StepLoads& loads);
+  void hasten();
   template <class Slow>
-  void square_slow_forces(const ContactForces& forces, const StepLoads& loads, Slow slow);
+  void find_slow_forces(const ContactForces& forces, const StepLoads& loads, Slow slow);
   double bears(int b) const;
   double interval_allowance() const;
   double part_dt(bool loose, bool impacts) const;

@@ -45,7 +45,7 @@ void ContactSums::condense(int thread) {
   for (const ContactForces::SeparatedPair& one : found.separated) of_.bound.add(of_.motion.pair(one.pair), one, out.parts);
 }
 
-void ContactSums::add_up(Range blocks, double* contact_wrench, double* kick) {
+void ContactSums::add_up(Range blocks, const StepLoads& loads, double* contact_wrench, double* kick) {
   const auto mine = [blocks](int b) { return b >= blocks.first && b < blocks.last; };
   int* const contacts = of_.state.contacts.list.contact_count.data();
   if (relisted_) start_all_rows(blocks, contact_wrench);
@@ -54,6 +54,8 @@ void ContactSums::add_up(Range blocks, double* contact_wrench, double* kick) {
   start_rows(these, contact_wrench);
   for (const int b : these) contacts[b] = of_.sleep.has_resting() ? of_.sleep.contacts(b) : 0;
   of_.bound.begin(these);
+  const bool split = of_.bound.is_split();
+  if (split) of_.bound.begin_slow(these);
   if (kick) std::copy(contact_wrench + 8 * blocks.first, contact_wrench + 8 * blocks.last, kick + 8 * blocks.first);
   for (std::size_t t = 0; t < condensed_.size(); ++t) {
     const ContactForces::ThreadPairs& found = of_.forces.results()[t];
@@ -65,15 +67,18 @@ void ContactSums::add_up(Range blocks, double* contact_wrench, double* kick) {
       const FormerJoints::FormerJoint& former = of_.former.of_pair(i);
       const bool strikes = former.joint < 0 || r.touching;
       const double share = kick ? kick_share(i) : 0;
+      const bool slow = split && of_.bound.loose(a, b);
       if (on_a) {
         add_to_a(contact_wrench, a, r.wrench, 1);
         if (kick) add_to_a(kick, a, r.wrench, share);
+        if (slow) of_.bound.add_slow_to_a(a, r.wrench);
         contacts[a] += r.touching;
         of_.bound.add(a, r.omega2_a - former.omega2_a, strikes ? r.impact_omega2_a : 0);
       }
       if (on_b) {
         add_to_b(contact_wrench, b, r.wrench, 1);
         if (kick) add_to_b(kick, b, r.wrench, share);
+        if (slow) of_.bound.add_slow_to_b(b, r.wrench);
         contacts[b] += r.touching;
         of_.bound.add(b, r.omega2_b - former.omega2_b, strikes ? r.impact_omega2_b : 0);
       }
@@ -86,6 +91,7 @@ void ContactSums::add_up(Range blocks, double* contact_wrench, double* kick) {
       if (mine(pair.b)) of_.bound.add(pair.b, 0, one.impact_omega2_b);
     }
   }
+  if (split) of_.bound.square_slow_forces(these, loads);
 }
 
 void ContactSums::add_totals(bool levels, bool sample) {

@@ -40,7 +40,7 @@ class ContactSums {
   // thread for its blocks, and `add_totals()` by one of them; then `end()` while it is alone. `kick`: as `contact_wrench`, each pair times
   // its impulse over that of a step, null without levels (model/levels.h).
   void condense(int thread);
-  void add_up(Range blocks, double* contact_wrench, double* kick);
+  void add_up(Range blocks, const StepLoads& loads, double* contact_wrench, double* kick);
   void add_totals(bool levels, bool sample);
   void end();
   // Within a macro step, on one thread: of the pairs that act in this step, and their blocks.
