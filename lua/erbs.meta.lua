@@ -539,7 +539,7 @@ function damping(keys) end
 ---@field stop_when_moved? number displacement of a block from rest that ends the run, collapse.moved (0: none) [m; 0 to 1e+06; default 0]
 ---@field sleep? boolean debris at rest is skipped until something moves it [default false]
 ---@field energy_gate? number largest relative energy residual of an accurate run (0: by the kind of run) [0 to 1e+06; default 0]
----@field levels? integer time levels: contacts of loose blocks act once in 2^(levels - 1) steps at most, while joints keep the step short; 1: in every step (default 4) [1 to 8]
+---@field levels? integer time levels: contacts of loose blocks act once in 2^(levels - 1) steps at most, where a few other blocks keep the step short; 1: in every step (default 4) [1 to 8]
 ---@field lazy_rotation? number block rotation between updates of joint frames [rad; 0 to 0.1; default 0.0001]
 ---@field gyroscopic? boolean the gyroscopic term w x (I w) [default true]
 ---@field output_dt? number time between rows of histories.csv and energy.csv [s; 1e-09 to 1e+06; default 0.01]

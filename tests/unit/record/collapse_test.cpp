@@ -7,7 +7,7 @@
 
 using namespace erbs;
 
-TEST_CASE("a block has fallen below half its smallest edge from where it started", "[record][collapse]") {
+TEST_CASE("a block has fallen below half its thinnest extent from where it started", "[record][collapse]") {
   auto t = test::two_bricks();
   t.state.pose.u[1].z() = -0.02;  // settlement before the start does not count
   Collapse c = watch_collapse(t.model, t.state.pose);

@@ -37,7 +37,7 @@ inline TwoBricks two_bricks() {
   m.kind = {Kind::fixed, Kind::moving, Kind::moving};
   m.mass = {1, 1, 3};
   m.rest = {Vec3(0, 0, 0), Vec3(0, 0, 0.1), Vec3(1, 0, 0)};
-  m.smallest_edge = {0.1, 0.1, 0.1};
+  m.smallest_edge = m.thickness = {0.1, 0.1, 0.1};
   m.material = {0, 0, 0};
   for (const auto& name : m.block_name) {
     Block block;
