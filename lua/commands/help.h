@@ -8,7 +8,7 @@
 
 namespace erbs::lua {
 
-std::vector<Function> all_functions();               // the functions of the table, then the ones written in Lua
+std::vector<Function> all_functions();  // the functions of the table, then the ones written in Lua
 bool is_function(const std::string& name);
 std::string function_help(const std::string& name);  // throws Error with the nearest known name
 std::string functions_list();

@@ -142,15 +142,15 @@ void ContactBound::divide(const ContactForces& forces, const FormerJoints& forme
     if (former.of_pair(i).joint >= 0) stiffen(list.pair[z(i)].a), stiffen(list.pair[z(i)].b);
   find_slow_forces(forces, loads, [&](int a, int b) { return !stiff[z(a)] && !stiff[z(b)]; });
   std::vector<int> steps_of(z(model_.nblock), octaves * parts);  // sixteenths of an octave above dt; -1: stiff
-  const auto bear = [&](int b, double step) {
+  const auto note = [&](int b, double step) {
     steps_of[z(b)] = std::min(steps_of[z(b)], std::max(0, int(parts * std::log2(0.95 * step / dt))));
   };
   for (int b = 0; b < model_.nblock; ++b)
     if (stiff[z(b)]) steps_of[z(b)] = -1;
-    else if (model_.kind[z(b)] == Kind::moving) bear(b, bears(b));
+    else if (model_.kind[z(b)] == Kind::moving) note(b, bears(b));
   for (const ContactForces::ThreadPairs& found : forces.results())
     for (const ContactForces::Force& one : found.forces)
-      if (one.result.slip_omega2 > 0) bear(list.pair[z(one.pair)].b, limited_by_slip(dt * (1 << octaves), one.result.slip_omega2));
+      if (one.result.slip_omega2 > 0) note(list.pair[z(one.pair)].b, limited_by_slip(dt * (1 << octaves), one.result.slip_omega2));
   std::array<int, 2 + octaves * parts> pairs{};  // by what they bear, stiff ones first
   for (const ContactForces::ThreadPairs& found : forces.results())
     for (const ContactForces::Force& one : found.forces) {
