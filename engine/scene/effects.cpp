@@ -148,7 +148,9 @@ std::vector<Effect> effects_of(const Scene& scene) {
   out.push_back(effect("contact dashpots", debris != nullptr ? dissipating(scene) : nullptr));
   const bool sleeps = scene.analysis.sleep && debris != nullptr && !sweeps && scene.gravity.norm() > 0;
   out.push_back(effect("sleep of debris", sleeps ? &scene.analysis.place : nullptr));
-  const bool levels = scene.analysis.contact_levels() > 1 && debris != nullptr && joined != nullptr && one_level_only(scene) == nullptr;
+  constexpr std::size_t heap = 30;  // blocks; fewer loose ones are not divided (`ContactBound::divide`)
+  const bool levels = scene.analysis.contact_levels() > 1 && debris != nullptr && (joined != nullptr || scene.blocks.size() > heap) &&
+                      one_level_only(scene) == nullptr;
   out.push_back({"levels of contacts", levels, !levels ? "" : scene.analysis.levels > 0 ? scene.analysis.place.text() : "by default"});
   out.push_back({"gyroscopic term", scene.analysis.gyroscopic, scene.analysis.gyroscopic ? "by default" : ""});
   out.push_back({"energy ledger", true, "every run"});

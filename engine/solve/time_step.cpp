@@ -104,9 +104,8 @@ void Solver::set_dt(double dt) {
 // Step and number of steps of the next macro step (levels.h). Fast and loose blocks have a step each, by the same rule. The shorter one is
 // divided further, if need be, so that the longer one is a multiple of it; the cheapest number of steps counts.
 void Solver::plan_macro_step(const SamplePlan& plan) {
-  constexpr double fast_share = 0.15;  // of the time of a whole step, for one without slow pairs; 82 of 480 us in the heap of a house
-  constexpr double worth = 1.2;        // steps: a shorter interval would gain little
-  constexpr int wait = 1024;           // macro steps until blocks are divided again
+  constexpr double worth = 1.2;  // steps: a shorter interval would gain little
+  constexpr int wait = 1024;     // macro steps until blocks are divided again
   TimeStep& time = state_.time;
   const ContactBound& bound = contacts_.bound();
   time.next_substeps = 1;
@@ -133,7 +132,7 @@ void Solver::plan_macro_step(const SamplePlan& plan) {
                longest = std::min({time.slow_dt, left, plan.every * (1 + 1e-9)});
   double least = 1 / time.next_dt;  // cost of a second
   for (int steps = 2; steps <= most_steps(model_); ++steps) {
-    const double dt = std::min(time.fast_dt, longest / steps), cost = (1 + (steps - 1) * fast_share) / (steps * dt);
+    const double dt = std::min(time.fast_dt, longest / steps), cost = (1 + (steps - 1) * ContactBound::short_step) / (steps * dt);
     if (cost < least) least = cost, time.next_dt = dt, time.next_substeps = steps;
   }
 }

@@ -7,7 +7,6 @@
 #include <numeric>
 
 #include "engine/contact/law/impact_bound.h"
-#include "engine/joints/event_bound.h"
 #include "engine/model/levels.h"
 
 namespace erbs {
@@ -19,8 +18,7 @@ namespace {
 constexpr double max_slip_omega_dt = 1.0;
 // Share of the energy that forces on loose blocks may err by if they end within an interval H, F^2 H^2 / (8 m): all together, and the part
 // of one block. In a house that breaks they would add up to 1e-6 in each macro step that its contacts bear, most of it on a few blocks.
-// Few joints break less often.
-constexpr double interval_share = 3e-8, few_interval_share = 1e-6, block_share = 1.0 / 16;
+constexpr double interval_share = 3e-8, block_share = 1.0 / 16;
 std::size_t z(int i) { return std::size_t(i); }
 
 }  // namespace
@@ -129,7 +127,7 @@ void ContactBound::bound_elsewhere() {
 // forces are large, and longer intervals would leave more in the ledger than they gain (tests/bench/README.md).
 void ContactBound::divide(const ContactForces& forces, const FormerJoints& former, const StepLoads& loads) {
   constexpr double few_pairs = 0.15, many_pairs = 0.25;  // of all contacts
-  constexpr double worth = 0.8, per_step = 0.15;         // of the time without levels; of a step, in each step of a macro step
+  constexpr double worth = 0.8;                          // of the time without levels
   constexpr int least_pairs = 100;                       // without stiff blocks: with fewer, levels would save next to nothing
   constexpr int octaves = 4, parts = 16;                 // lengths that are tried: up to 16 steps, by sixteenths of an octave
   PairList& list = state_.contacts.list;
@@ -167,7 +165,7 @@ void ContactBound::divide(const ContactForces& forces, const FormerJoints& forme
     const double length = std::exp2(double(i) / parts), steps = std::ceil(length - 1e-9);
     short_of += pairs[z(i)];
     if (steps > most_steps(model_) || short_of > few_pairs * all) break;
-    const double share = (1 + (steps - 1) * (per_step + double(pairs[0] + short_of) / all)) / length;
+    const double share = (1 + (steps - 1) * (short_step + double(pairs[0] + short_of) / all)) / length;
     if (share < least) least = share, best = i;
   }
   if (best == 0) return;
@@ -190,15 +188,12 @@ void ContactBound::hasten() {
 double ContactBound::bears(int b) const {
   const double forces = slow_force2_[z(b)];
   const double allowed = limit_.allowed(limit_.on_block(b, omega2_[z(b)], impact_omega2_[z(b)]), false);
-  return forces > 0 ? std::min(allowed, std::sqrt(8 * block_share * interval_allowance() / forces)) : allowed;
-}
-
-double ContactBound::interval_allowance() const {  // J
-  return (model_.njoint > few_joints ? interval_share : few_interval_share) * state_.energy.reference;
+  return forces > 0 ? std::min(allowed, std::sqrt(8 * block_share * interval_share * state_.energy.reference / forces)) : allowed;
 }
 
 double ContactBound::longest_interval() const {
-  return slow_forces_ > 0 ? std::sqrt(8 * interval_allowance() / slow_forces_) : std::numeric_limits<double>::infinity();
+  return slow_forces_ > 0 ? std::sqrt(8 * interval_share * state_.energy.reference / slow_forces_)
+                          : std::numeric_limits<double>::infinity();
 }
 
 // For a division of the blocks, with the pairs that would be slow.

@@ -24,6 +24,9 @@ class ContactBound {
       : model_(model), state_(state), bodies_(bodies), sleep_(sleep), limit_(model, state, range) {}
   void initialise();
 
+  // Of the time of a whole step, that of one without slow pairs: 82 of 480 us in the heap of a house.
+  static constexpr double short_step = 0.15;
+
   // Pairs with a fast block, or of two loose ones.
   struct Part {
     double slip_omega2 = 0, event_rate = 0, dt = 0;  // 1/s2, 1/s, s
@@ -99,7 +102,6 @@ class ContactBound {
   template <class Slow>
   void find_slow_forces(const ContactForces& forces, const StepLoads& loads, Slow slow);
   double bears(int b) const;
-  double interval_allowance() const;
   double part_dt(bool loose, bool impacts) const;
   double limit() const;  // s, time step that contacts and joints allow, ...
   // s, ... and slipping patches

@@ -87,24 +87,22 @@ void ContactLimit::add_joints() {
 }
 
 // A spring between x and y has the energy (x - y) K (x - y) <= (1 + t) x K x + (1 + 1/t) y K y for any t > 0; t = weight of y over weight
-// of x, 0 for the ground. Weights of 1 give twice the stiffness on each block. The few blocks that ask for most, and for more than `enough`
-// (1/s2), become heavier, round by round: up to half of their bound goes over to their neighbours, and all of that to the ground. The best
-// round counts.
+// of x, 0 for the ground. Weights of 1 give twice the stiffness on each block. Blocks that ask for more than `enough` (1/s2) become
+// heavier, round by round: up to half of their bound goes over to their neighbours, and all of that to the ground. The best round counts.
 std::vector<double> ContactLimit::by_weights(std::span<const ContactBlock> blocks, std::span<const double> scalars, double enough) {
   constexpr int rounds = 8;
-  constexpr double reachable = 0.52;  // of the bound of a block with weights of 1
+  constexpr double reachable = 0.52, near = 1.06;  // of the bound of a block with weights of 1; of that
   std::vector<Mat6> k(blocks.size(), Mat6::Zero());
   for (const Spring& s : springs_) k[z(s.a)] += s.on_a, k[z(s.b)] += s.on_b;
   std::vector<double> best = by_matrices(blocks, k);
   // Scalars stand for weights of 1: a block that is weighed anew, or beside one, loses them.
   for (std::size_t b = 0; b < scalars.size(); ++b) best[b] = std::min(best[b], inverse_square(scalars[b], safe_share));
   const std::vector<double> equal = best;
-  const double goal = enough;
   std::vector<int> heavy;
   const auto find_heavy = [&](const std::vector<double>& bound) {
     heavy.clear();
     for (int b = 0; b < model_.nblock; ++b)
-      if (bound[z(b)] > std::max(goal, 1.06 * reachable * equal[z(b)])) heavy.push_back(b);
+      if (bound[z(b)] > std::max(enough, near * reachable * equal[z(b)])) heavy.push_back(b);
   };
   find_heavy(best);
   if (heavy.empty()) return best;
@@ -118,13 +116,13 @@ std::vector<double> ContactLimit::by_weights(std::span<const ContactBlock> block
       const double t = model_.kind[z(other)] == Kind::moving ? weight[z(other)] / weight[z(b)] : 0;
       sum += 0.5 * (1 + t) * (s.a == b ? s.on_a : s.on_b);
     }
-    return share_of(blocks[z(b)], sum, 0.7 * goal);
+    return share_of(blocks[z(b)], sum, 0.7 * enough);
   };
   std::vector<double> weight(blocks.size(), 1.0), bound = best;
   for (int round = 0; round < rounds && !heavy.empty(); ++round) {
     std::vector<int> changed = heavy;
     for (const int b : heavy) {
-      weight[z(b)] *= bound[z(b)] / std::max(goal, reachable * equal[z(b)]);
+      weight[z(b)] *= bound[z(b)] / std::max(enough, reachable * equal[z(b)]);
       for (const int i : springs_of[z(b)]) changed.push_back(springs_[z(i)].a == b ? springs_[z(i)].b : springs_[z(i)].a);
     }
     std::ranges::sort(changed);

@@ -52,6 +52,44 @@ TEST_CASE("a step past the limit is refused with the reason", "[analysis]") {
   }
 }
 
+TEST_CASE("an initial pose that the equilibrium would undo is refused, a velocity is not", "[analysis]") {
+  const auto scene = [](const std::string& initial, const std::string& start) {
+    Script script(Script::Options{.quiet = true});
+    return script.load_text(R"(
+      material{ name = "stone", density = 2000 }
+      ground{ size = 10, material = "stone" }
+      box{ name = "wall", group = "wall", size = {.3, .2, .6}, center = {0, 0, .3}, initial = { )" +
+                                initial + R"( } }
+      joint{ law = dry{ kn = 1e10, mu = .6 }, between = {"wall", "ground"} }
+      analysis{ duration = 1)" + start +
+                                " }",
+                            "scene.lua");
+  };
+  for (const char* pose : {"position = {0, 0, 0.001}", "rotation = {0, 5 * deg, 0}, about = {.15, 0, 0}"}) {
+    for (const char* start : {"", ", start = 'ramp'"})
+      CHECK_THROWS_WITH(prepare(scene(pose, start), false), Catch::Contains("block \"wall\"") && Catch::Contains("start = \"rest\""));
+    CHECK_NOTHROW(prepare(scene(pose, ", start = 'rest'"), false));
+  }
+  CHECK_NOTHROW(prepare(scene("velocity = {.1, 0, 0}", ""), false));
+}
+
+TEST_CASE("the extent of a block is that of all its parts, the scale of penetration that of the thinnest", "[analysis]") {
+  Script script(Script::Options{.quiet = true});
+  const Scene scene = script.load_text(R"(
+    material{ name = "stone", density = 2000 }
+    ground{ size = 10, material = "stone" }
+    footed_block{ name = "footed", free = true, size = {.25, .5, 1}, foot = .01, at = {0, 0, 0} }
+    box{ name = "plain", size = {.3, .2, .1}, center = {2, 0, .05}, rotation = {0, 0, .3}, free = true }
+    analysis{ duration = 1 })",
+                                       "scene.lua");
+  const Model m = prepare(scene, false).model;
+  const auto at = [&](const char* name) { return std::size_t(std::ranges::find(m.block_name, name) - m.block_name.begin()); };
+  CHECK(m.thickness.at(at("footed")) == Approx(0.25).epsilon(0.01));
+  CHECK(m.smallest_edge.at(at("footed")) < 0.01);
+  CHECK(m.thickness.at(at("plain")) == Approx(0.1));
+  CHECK(m.smallest_edge.at(at("plain")) == m.thickness.at(at("plain")));
+}
+
 TEST_CASE("the bounds on the step keep their order", "[analysis]") {
   const Prepared run = prepare(test::small_wall("analysis{duration=1}"), false);
   // K <= 2 blockdiag(K_ii) for springs between pairs, and Cauchy's interlacing: the block bound is exact or up to sqrt 2 too short.

@@ -63,6 +63,9 @@ TEST_CASE("the command line is checked", "[program]") {
   CHECK(contains(bench.said, "tensile strength (Pa; 0 to 1e+09; required)"));
   CHECK(bench.erbs({"help", "run"}) == 0);
   CHECK(contains(bench.said, "--max-wall"));
+  CHECK(bench.erbs({"help", "record"}) == 0);  // a verb and a function of scenes
+  CHECK(contains(bench.said, "smoothing"));
+  CHECK(contains(bench.said, "In a scene:"));
 }
 
 TEST_CASE("a run stopped by --until ends with 3, and --resume ends as one run would", "[program]") {
