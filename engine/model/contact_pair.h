@@ -26,6 +26,7 @@ struct ContactSettings {
   double settling_tangential = 0.05;  // the same of a sticking contact, tangential
   double horizon = 0;                 // s, time before a predicted event can change a step (model/levels.h)
   double event_budget = 0;            // J, energy error allowed per impact (event_bound.h); 0: no limit
+  double blow_share = 1e300;          // of the kinetic energy of a blow: the same (event_bound.h)
   Interlock interlock;                // interlock.h, for contacts: m, m2/s2 and share per step
 };
 

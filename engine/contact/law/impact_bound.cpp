@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "engine/contact/law/frame.h"
 #include "engine/model/joint_pack.h"
@@ -10,10 +11,13 @@ namespace erbs {
 namespace {
 
 // Event rate (`event_bound.h`) of a spring of stiffness k (N/m) that opens or closes at `speed` (m/s) after the distance `left` (m).
-double event_rate(double k, double speed, double left, const ContactSettings& settings) {
+double event_rate(double k, double speed, double left, const PairFrame& s, const ContactSettings& settings) {
   if (!(settings.event_budget > 0 && speed > 0)) return 0;
+  const double own = 0.5 * speed * speed / (s.other_block->inverse_mass + s.reference_block->inverse_mass);
+  const double budget =
+      speed > settings.reference_speed ? std::min(settings.event_budget, settings.blow_share * own) : settings.event_budget;
   left -= speed * settings.horizon;
-  return std::min(speed * std::sqrt(event_share * k / settings.event_budget), left > 0 ? event_steps * speed / left : 1e300);
+  return std::min(speed * std::sqrt(event_share * k / budget), left > 0 ? event_steps * speed / left : 1e300);
 }
 
 // Rates of both bodies if a face lands on the other, of which at most `share` presses before the next evaluation. The patch is within a
@@ -99,17 +103,22 @@ Approach approach(int separating_axis, const PairFrame& s) {
   return way;
 }
 
+// Keeps the three least heights, in order.
+void lower(double x, double low[3]) {
+  for (int k = 0; k < 3; ++k)
+    if (x < low[k]) std::swap(x, low[k]);
+}
+
 // Share of a face that presses once a body has sunk in by `depth` along n: the whole face if it lands flat, a strip for an edge, a triangle
 // for a corner. `corner_travel` (m): relative motion of the corners by rotation until then.
-double pressed_share(const SmallShape& body, const Vec3& n, double depth, double corner_travel) {
-  double low[3] = {1e300, 1e300, 1e300};
-  for (int i = 0; i < few; ++i) {
-    double x = n[0] * body.vertex[0][i] + n[1] * body.vertex[1][i] + n[2] * body.vertex[2][i];
-    for (double& l : low)
-      if (x < l) std::swap(x, l);
-  }
+double pressed_share(const double low[3], double depth, double corner_travel) {
   const auto part = [&](double rise) { return rise > depth + corner_travel ? depth / (rise - corner_travel) : 1.0; };
   return part(low[1] - low[0]) * part(low[2] - low[0]);
+}
+double pressed_share(const SmallShape& body, const Vec3& n, double depth, double corner_travel) {
+  double low[3] = {1e300, 1e300, 1e300};
+  for (int i = 0; i < few; ++i) lower(n[0] * body.vertex[0][i] + n[1] * body.vertex[1][i] + n[2] * body.vertex[2][i], low);
+  return pressed_share(low, depth, corner_travel);
 }
 
 // A body that sinks in deeper in its first step than the step allows gains energy. So the step is short enough for the largest face before
@@ -119,7 +128,7 @@ void impact_bound(const ContactPair& pair, const PairFrame& s, const ContactSett
   const ContactBlock &r = *s.reference_block, &o = *s.other_block;
   const double spin = o.w.norm() * s.other->reach + r.w.norm() * s.reference->reach, speed = way.along + spin;
   const double k = pair.law.kn * std::min(s.reference->largest_face, s.other->largest_face);
-  result.event_rate = event_rate(k, speed, way.apart, settings);
+  result.event_rate = event_rate(k, speed, way.apart, s, settings);
   const bool soon = speed > settings.reference_speed && way.apart <= look_ahead * speed * dt;
   double share = 1;
   if ((soon || result.event_rate * dt > 0.5) && !way.n.isZero(0) && corners_known(s)) {
@@ -128,7 +137,7 @@ void impact_bound(const ContactPair& pair, const PairFrame& s, const ContactSett
       share *= pressed_share(s.other->small, o.rotation.transpose() * way.n, depth, corner_travel);
     if (way.by != SeparatingFeature::face)
       share *= pressed_share(s.reference->small, -(r.rotation.transpose() * way.n), depth, corner_travel);
-    result.event_rate = event_rate(share * k, speed, way.apart, settings);
+    result.event_rate = event_rate(share * k, speed, way.apart, s, settings);
   }
   if (soon) face_impact_omega2(pair, s, share, result);
 }
@@ -157,10 +166,10 @@ struct Opposite {
   Vec3 normal[most_faces];  // world axes
   double least;             // m, lower bound of n_f . apart less the offset of face f, if one of these faces may be flat on it
 
-  Opposite(const PairFrame& s, const Vec3& apart, double thin) {
+  Opposite(const PairFrame& s, const Vec3& apart, double near) {
     const auto most_along = [](double across, double length) { return -(across > 0 ? facing : 1) * across + oblique * length; };
     const ContactShape &reference = *s.reference, &other = *s.other;
-    const double margin = (2 * oblique * (1 + 1e-9)) * other.reach + 0.01 * thin;
+    const double margin = (2 * oblique * (1 + 1e-9)) * other.reach + near;
     least = -margin - most_along(*std::ranges::min_element(other.offset), other.reach);
     const double nearest = *std::ranges::min_element(reference.offset);
     for (std::size_t g = 0; g < other.normal.size(); ++g) {
@@ -174,16 +183,56 @@ struct Opposite {
   bool looks_away(double along, double offset) const { return along - offset < least; }
 };
 
+// Corners of one body that may come down on a plane of another: those of a face that is nearly flat on it, or all.
+struct CornersOverPlane {
+  const ContactShape& shape;
+  const ContactBlock &block, &of_plane;
+  std::span<const int> corner;
+  Vec3 n;         // outward unit normal of the plane, world axes
+  double offset;  // m, of the plane from the centroid of its body
+};
+std::span<const int> corners_of_face(const ContactShape& shape, std::size_t face) {
+  return std::span(shape.loop)
+      .subspan(std::size_t(shape.loop_first[face]), std::size_t(shape.loop_first[face + 1] - shape.loop_first[face]));
+}
+
+// Events and impacts of the corners that come down on the plane. With each the face presses with more: the last one lands it flat, one of
+// two may land an edge.
+void foresee_landing(const CornersOverPlane& one, const PairFrame& s, const ContactSettings& settings, double face, double dt,
+                     PairResult& result, double& soon) {
+  const ContactBlock &c = one.block, &p = one.of_plane;
+  const Vec3 apart = (c.rest - p.rest) + (c.u - p.u), v = c.v - p.v;
+  double height[most_vertices], rate[most_vertices];  // m, m/s
+  const std::size_t count = one.corner.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    const Vec3 r = c.rotation * one.shape.vertex[std::size_t(one.corner[i])];
+    height[i] = one.n.dot(apart + r) - one.offset;
+    rate[i] = one.n.dot(v + c.w.cross(r) - p.w.cross(apart + r));
+  }
+  for (std::size_t i = 0; i < count; ++i) {
+    if (!(rate[i] < 0 && height[i] > 0)) continue;
+    const double speed = -rate[i], time = height[i] / speed;
+    double low[3] = {1e300, 1e300, 1e300};  // m, of the corners above the plane by then
+    for (std::size_t j = 0; j < count; ++j) lower(j == i ? 0 : std::max(0.0, height[j] + rate[j] * time), low);
+    const double share = pressed_share(low, look_ahead * speed * dt, 0);
+    result.event_rate = std::max(result.event_rate, event_rate(0.5 * share * face, speed, height[i], s, settings));
+    if (speed > settings.reference_speed && time <= look_ahead * dt) soon = std::max(soon, share);
+  }
+}
+
 }  // namespace
 
 void foresee(const ContactPair& pair, const PairFrame& s, const ContactSettings& settings, double dt, PairResult& result) {
   const ContactBlock &r = *s.reference_block, &o = *s.other_block;
-  const Vec3 apart = (o.rest - r.rest) + (o.u - r.u), v = o.v - r.v, w = o.w - r.w, at = r.rotation * pair.c, n = r.rotation * pair.n;
+  const Vec3 apart = (o.rest - r.rest) + (o.u - r.u), v = o.v - r.v, at = r.rotation * pair.c, n = r.rotation * pair.n;
   const double parting = n.dot(v + o.w.cross(at - apart) - r.w.cross(at));
-  if (parting > 0) result.event_rate = std::max(result.event_rate, event_rate(pair.law.kn * pair.area, parting, result.depth, settings));
-  const double lever = std::min(s.reference->reach, s.other->reach), thin = std::min(s.reference->thickness, s.other->thickness);
-  bool soon = false;
-  const Opposite opposite(s, apart, thin);
+  if (parting > 0) result.event_rate = std::max(result.event_rate, event_rate(pair.law.kn * pair.area, parting, result.depth, s, settings));
+  const double near = 0.01 * std::min(s.reference->thickness, s.other->thickness) + result.depth;  // m
+  const double face = pair.law.kn * std::min(s.reference->largest_face, s.other->largest_face);
+  const bool of_other = s.other->reach <= s.reference->reach;  // corners of the smaller body
+  double soon = 0;                                             // share of a face that lands within the next steps
+  bool flat = false;                                           // nearly
+  const Opposite opposite(s, apart, near);
   for (std::size_t f = 0; f < s.reference->normal.size(); ++f) {
     const Vec3 nf = r.rotation * s.reference->normal[f];
     if (opposite.looks_away(nf.dot(apart), s.reference->offset[f])) continue;
@@ -191,18 +240,23 @@ void foresee(const ContactPair& pair, const PairFrame& s, const ContactSettings&
       const std::size_t g = opposite.face[i];
       const Vec3& ng = opposite.normal[i];
       if (-nf.dot(ng) < facing) continue;
-      const Vec3 across = nf.cross(ng);
-      const double sine = across.norm(), closes = w.dot(across);  // rate of the angle between them, times its sine
-      if (!(closes > 0) || !(sine > 1e-9)) continue;
+      const double sine = nf.cross(ng).norm();
       const Vec3 corner = o.rotation * s.other->vertex[std::size_t(s.other->loop[std::size_t(s.other->loop_first[g])])];
-      if (std::abs(nf.dot(apart + corner) - s.reference->offset[f]) > 2 * sine * s.other->reach + 0.01 * thin) continue;
-      const double rate = closes / sine, time = sine / rate;
-      const double k = pair.law.kn * std::min(s.reference->largest_face, s.other->largest_face);
-      result.event_rate = std::max(result.event_rate, event_rate(0.5 * k, rate * lever, sine * lever, settings));
-      soon = soon || (rate * lever > settings.reference_speed && time <= look_ahead * dt);
+      if (std::abs(nf.dot(apart + corner) - s.reference->offset[f]) > 2 * sine * s.other->reach + near) continue;
+      foresee_landing(of_other ? CornersOverPlane{*s.other, o, r, corners_of_face(*s.other, g), nf, s.reference->offset[f]}
+                               : CornersOverPlane{*s.reference, r, o, corners_of_face(*s.reference, f), ng, s.other->offset[g]},
+                      s, settings, face, dt, result, soon);
+      flat = true;
     }
   }
-  if (soon) face_impact_omega2(pair, s, 1, result);
+  // An edge may still land on the plane of the contact.
+  if (constexpr int all[few] = {0, 1, 2, 3, 4, 5, 6, 7}; !flat && corners_known(s)) {
+    const auto corners = [&](const ContactShape& shape) { return std::span(all).first(shape.vertex.size()); };
+    foresee_landing(of_other ? CornersOverPlane{*s.other, o, r, corners(*s.other), n, n.dot(at)}
+                             : CornersOverPlane{*s.reference, r, o, corners(*s.reference), -n, n.dot(apart - at)},
+                    s, settings, face, dt, result, soon);
+  }
+  if (soon > 0) face_impact_omega2(pair, s, soon, result);
 }
 
 int cached_axis(const ContactPair& pair, const ContactShape& a, const ContactShape& b) {

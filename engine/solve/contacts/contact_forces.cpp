@@ -8,6 +8,7 @@
 
 #include "engine/contact/law/frame.h"
 #include "engine/contact/law/impact_bound.h"
+#include "engine/joints/event_bound.h"
 #include "engine/model/levels.h"
 
 namespace erbs {
@@ -24,8 +25,9 @@ PairFrame frame_of(const PairBodies& bodies, const ContactBlock& a, const Contac
 
 }  // namespace
 
-ContactForces::ContactForces(State& state, const ContactBodies& bodies, MotionBounds& motion, int threads)
+ContactForces::ContactForces(const Model& model, State& state, const ContactBodies& bodies, MotionBounds& motion, int threads)
     : state_(state), bodies_(bodies), motion_(motion), first_pair_(z(threads) + 1, 0), thread_pairs_(z(threads)), room_(z(threads)) {
+  settings_.blow_share = blow_share(model);
   first_pair_.back() = std::numeric_limits<int>::max();
 }
 
@@ -189,13 +191,14 @@ void ContactForces::note_cost(ThreadPairs& found, double seconds) {
 // Predicts events of touching pairs with enough kinetic energy. With less, an event stays within the budget at any step.
 void ContactForces::foresee_touching(ThreadPairs& found) {
   if (!(settings_.event_budget > 0)) return;
-  const double soon = 1.5 * std::max(macro_dt(state_.time), state_.time.last_dt);
+  const double soon = 1.5 * std::max(macro_dt(state_.time), state_.time.last_dt), slow = settings_.reference_speed;
   for (Force& one : found.forces) {
     const MotionBounds::PairBound& pair = motion_.pair(one.pair);
     const ContactBlock &a = bodies_.block[z(pair.a)], &b = bodies_.block[z(pair.b)];
     const double spin_a = motion_.spin(pair.a), spin_b = motion_.spin(pair.b);
     const double square = (b.v - a.v).squaredNorm() + spin_a * spin_a + spin_b * spin_b;
-    if (!(square > foresee_threshold * settings_.event_budget * std::max(a.inverse_mass, b.inverse_mass))) continue;
+    const double least = foresee_threshold * settings_.event_budget * std::max(a.inverse_mass, b.inverse_mass);
+    if (!(square > (std::isfinite(settings_.blow_share) ? std::min(least, slow * slow) : least))) continue;
     foresee(state_.contacts.list.pair[z(one.pair)], frame_of(cache_[z(one.pair)].bodies, a, b), settings_, soon, one.result);
   }
 }

@@ -29,7 +29,7 @@ class ContactForces {
     double cost = 0;                       // s, of a pair, mean of the last steps
   };
 
-  ContactForces(State& state, const ContactBodies& bodies, MotionBounds& motion, int threads);
+  ContactForces(const Model& model, State& state, const ContactBodies& bodies, MotionBounds& motion, int threads);
   void list_pairs();                        // after the list of pairs has changed
   void mark_changed() { changed_ = true; }  // the laws of some pairs have changed
   void prepare();                           // before the forces of a step

@@ -24,7 +24,7 @@ Contacts::Contacts(const Model& model, State& state, const StepRange& range, int
       bodies_(model),
       motion_(model, state, bodies_, threads),
       former_(model, state, bodies_),
-      forces_(state, bodies_, motion_, threads),
+      forces_(model, state, bodies_, motion_, threads),
       sleep_(model, state),
       bound_(model, state, range, bodies_, sleep_),
       sums_({model, state, bodies_, motion_, former_, forces_, sleep_, bound_}, threads),

