@@ -14,7 +14,7 @@ double event_allowance(const Model& m, const State& s) {
   const double sum = m.njoint > few_joints ? blow_sum : has_many_events(m, s) ? rain_sum : event_sum;
   const double recent = std::fabs(s.energy.event_residual) / sum, all = std::fabs(s.energy.run_residual) / event_sum;
   const double used = std::max(recent, all) / (many * s.energy.reference);
-  return many * event_tolerance * s.energy.reference * std::max(0.001, 1 - used);
+  return many * event_tolerance * s.energy.reference * std::max(least_allowance, 1 - used);
 }
 
 double blow_share(const Model& m) {

@@ -20,12 +20,14 @@ inline constexpr int foresee_every = 4;  // steps between two predictions
 inline constexpr double event_tolerance = 3e-5;
 // The same for the sum of all events: as it comes near, each event may err by less.
 inline constexpr double event_sum = 5e-4;
+inline constexpr double least_allowance = 1e-3;  // share of `event_tolerance` that is left in any case
 
 // A blow of a structure of many joints is a thousand events within some hundred steps. Each errs by far less than it may, but faces that
 // meet lose more than faces that part gain, since friction and dashpots act in between: of a storey that falls on its walls 1.3 of 700 J
 // that it dissipates. So there the residual of the last steps counts, which fades: the step is shorter until the blow has passed, and then
 // no longer. In a rain of loose bricks all blows come at once, and half as much is allowed. The sum of the whole run counts as well, at
-// `event_sum`: cracked mortar that trembles at the limit of the step makes a little energy in each event, and always of the same sign (h34).
+// `event_sum`: cracked mortar that trembles at the limit of the step makes a little energy in each event, and always of the same sign
+// (h34).
 inline constexpr double blow_sum = 1e-4, rain_sum = 5e-5;  // shares of `Energy::reference`
 inline constexpr double recent_share = 7.0 / 8;            // of `Energy::event_residual` that each step of the ledger leaves
 inline constexpr int few_joints = 16;                      // in a structure of more joints the first opening of one is no significant event

@@ -149,9 +149,23 @@ TEST_CASE("events of a blow may add up to less in a structure of many joints", "
       e.event_residual = sign * 0.25 * sum * e.reference;
       CHECK(event_allowance(run.model, run.state) == Approx(0.75 * whole));
       e.event_residual = sign * 2 * sum * e.reference;
-      CHECK(event_allowance(run.model, run.state) == Approx(0.01 * whole));
+      CHECK(event_allowance(run.model, run.state) == Approx(least_allowance * whole));
+      e.event_residual = 0, e.run_residual = sign * 0.25 * event_sum * e.reference;  // whatever the last steps left
+      CHECK(event_allowance(run.model, run.state) == Approx(0.75 * whole));
+      e.run_residual = 0;
     }
   }
+}
+
+TEST_CASE("a blow of a few blocks may err by a small share of its own energy, one of many by any", "[event]") {
+  const auto share = [](int blocks) {
+    const Scene scene = pile_of(blocks);
+    return blow_share(prepare(scene, false).model);
+  };
+  CHECK(share(1) == own_share);
+  CHECK(share(few_blows) == own_share);
+  CHECK(share(10 * few_blows) == Approx(10 * own_share));
+  CHECK(std::isinf(share(200 * few_blows)));
 }
 
 // Its budget is back once the blow has passed: what the ledger lost in it fades within some of its steps, however much that was.
