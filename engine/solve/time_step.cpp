@@ -13,6 +13,7 @@
 namespace erbs {
 namespace {
 
+constexpr int until_growth = 40, until_loose_growth = 100;  // steps without a limit, after which the step grows
 constexpr double trembling = 0.1;  // of the event rate of free fall; below it a body at rest only trembles under the thresholds of sleep
 std::size_t z(int i) { return std::size_t(i); }
 
@@ -57,7 +58,7 @@ void Solver::judge_step() {
     judge(interval_before(time, loose), bound.allowed_dt(loose), [&] { return bound.stable_dt(loose); });
 }
 
-// The step `now` follows what is allowed. It shrinks at once. It grows after 100 steps without a limit, and by half at most, because
+// The step `now` follows what is allowed. It shrinks at once. It grows after some steps without a limit, and by half at most, because
 // impacts are predicted only a few steps ahead. `steps`: since the last call; `since_limited` counts them.
 double Solver::next_dt(double now, double allowed, double event, Part part, int steps, int& since_limited) const {
   if (event > 0) allowed = std::min(allowed, event);
@@ -65,7 +66,8 @@ double Solver::next_dt(double now, double allowed, double event, Part part, int 
   if (allowed < now) {
     dt = on_scale(0.95 * allowed);
     since_limited = 0;
-  } else if (now < std::max(allowed, state_.time.dt_target) && (since_limited += steps) > 100) {
+  } else if (now < std::max(allowed, state_.time.dt_target) &&
+             (since_limited += steps) > (part == Part::loose ? until_loose_growth : until_growth)) {
     if (part == Part::loose) allowed = std::min(allowed, contacts_.bound().longest_interval());
     if (allowed > 1.1 * now) dt = std::min(on_scale(0.95 * allowed), 1.5 * now);
     if (!may_grow(now, dt, part)) dt = now;

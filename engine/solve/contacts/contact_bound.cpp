@@ -16,9 +16,11 @@ namespace {
 // may flutter (`dry_friction.h`). The dashpot of the contact ends the flutter, but an explicit step allows it only c dt / m = 1/4
 // (`pair.cpp`): a viscous ratio of 1 / (8 omega dt), .12 here. The block of V10 with mu = .9 flutters more and more at 1.1, not at .8.
 constexpr double max_slip_omega_dt = 1.0;
-// Share of the energy that forces on loose blocks may err by if they end within an interval H, F^2 H^2 / (8 m): all together, and the part
-// of one block. In a house that breaks they would add up to 1e-6 in each macro step that its contacts bear, most of it on a few blocks.
-constexpr double interval_share = 3e-8, block_share = 1.0 / 16;
+// Share of the energy that the forces on a loose block may err by if they end within an interval H, F^2 H^2 / (8 m), and how many such
+// errors all blocks may have together: as many as a sixth of them. A heap in which a block becomes fast lets its neighbours, each between
+// fast and slow forces, err at once.
+constexpr double block_share = 2e-9;
+double interval_share(int blocks) { return block_share * std::max(16.0, blocks / 6.0); }
 std::size_t z(int i) { return std::size_t(i); }
 
 }  // namespace
@@ -48,7 +50,7 @@ void ContactBound::end(const ContactForces& forces, FormerJoints& former, Sleep&
   }
   allowed_ = limited_by_passing(limited_by_slip(std::min(limit_.range().longest, bears)), forces, motion);
   if (divides) divide(forces, former, loads);
-  else if (is_split()) hasten();
+  else if (is_split()) hasten(forces);
   slow_forces_ = 0;
   for (int b = 0; is_split() && b < model_.nblock; ++b)
     if (loose(b, b)) slow_forces_ += slow_force2_[z(b)];
@@ -172,27 +174,37 @@ void ContactBound::divide(const ContactForces& forces, const FormerJoints& forme
   for (const int b : steps_of) list.fast.push_back(b < best);
 }
 
-// Between two divisions: loose blocks that no longer bear the macro step become fast, as long as they are few.
-void ContactBound::hasten() {
+// Between two divisions: loose blocks that no longer bear the macro step become fast, and those that a fast block is about to strike, as
+// long as they are few. In a blow the forces on the other side of a struck block rise as well.
+void ContactBound::hasten(const ContactForces& forces) {
   constexpr double few_blocks = 0.1;
   PairList& list = state_.contacts.list;
   int room = int(few_blocks * double(list.fast.size())) - int(std::ranges::count(list.fast, hastened));
-  for (const int b : sleep_.in_live_pairs()) {
-    if (room <= 0) return;
-    if (model_.kind[z(b)] != Kind::moving || list.fast[z(b)]) continue;
-    if (bears(b) < state_.time.slow_dt) list.fast[z(b)] = hastened, --room;
-  }
+  const auto hasten = [&](int b) {
+    if (room > 0 && model_.kind[z(b)] == Kind::moving && !list.fast[z(b)]) list.fast[z(b)] = hastened, --room;
+  };
+  const double interval = std::min(state_.time.slow_dt, most_steps(model_) * state_.time.fast_dt);
+  for (const int b : sleep_.in_live_pairs())
+    if (model_.kind[z(b)] == Kind::moving && bears(b) < interval) hasten(b);
+  const auto strikes = [&](int i, double event_rate) {
+    const ContactPair& pair = list.pair[z(i)];
+    if (event_rate * interval > 1 && !loose(pair.a, pair.b)) hasten(pair.a), hasten(pair.b);
+  };
+  for (const ContactForces::ThreadPairs& found : forces.results())  // in the order of pairs, whatever threads there are
+    for (const ContactForces::Force& one : found.forces) strikes(one.pair, one.result.event_rate);
+  for (const ContactForces::ThreadPairs& found : forces.results())
+    for (const ContactForces::SeparatedPair& one : found.separated) strikes(one.pair, one.event_rate);
 }
 
 // s, interval of a loose block: what its contacts and the faces that may strike it allow, and its slow forces.
 double ContactBound::bears(int b) const {
   const double forces = slow_force2_[z(b)];
   const double allowed = limit_.allowed(limit_.on_block(b, omega2_[z(b)], impact_omega2_[z(b)]), false);
-  return forces > 0 ? std::min(allowed, std::sqrt(8 * block_share * interval_share * state_.energy.reference / forces)) : allowed;
+  return forces > 0 ? std::min(allowed, std::sqrt(8 * block_share * state_.energy.reference / forces)) : allowed;
 }
 
 double ContactBound::longest_interval() const {
-  return slow_forces_ > 0 ? std::sqrt(8 * interval_share * state_.energy.reference / slow_forces_)
+  return slow_forces_ > 0 ? std::sqrt(8 * interval_share(model_.nblock) * state_.energy.reference / slow_forces_)
                           : std::numeric_limits<double>::infinity();
 }
 

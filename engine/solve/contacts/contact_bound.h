@@ -98,7 +98,7 @@ class ContactBound {
   static constexpr std::uint8_t hastened = 2;  // in `PairList::fast`: since the last division
   void update(const ContactForces& forces, FormerJoints& former, Sleep& sleep);
   void divide(const ContactForces& forces, const FormerJoints& former, const StepLoads& loads);
-  void hasten();
+  void hasten(const ContactForces& forces);
   template <class Slow>
   void find_slow_forces(const ContactForces& forces, const StepLoads& loads, Slow slow);
   double bears(int b) const;

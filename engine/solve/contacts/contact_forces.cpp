@@ -26,9 +26,15 @@ PairFrame frame_of(const PairBodies& bodies, const ContactBlock& a, const Contac
 }  // namespace
 
 ContactForces::ContactForces(const Model& model, State& state, const ContactBodies& bodies, MotionBounds& motion, int threads)
-    : state_(state), bodies_(bodies), motion_(motion), first_pair_(z(threads) + 1, 0), thread_pairs_(z(threads)), room_(z(threads)) {
+    : state_(state),
+      bodies_(bodies),
+      motion_(motion),
+      first_pair_(z(threads) + 1, 0),
+      first_fast_(first_pair_),
+      thread_pairs_(z(threads)),
+      room_(z(threads)) {
   settings_.blow_share = blow_share(model);
-  first_pair_.back() = std::numeric_limits<int>::max();
+  first_pair_.back() = first_fast_.back() = std::numeric_limits<int>::max();
 }
 
 void ContactForces::list_pairs() {
@@ -135,7 +141,8 @@ bool ContactForces::evaluate_one(int i, bool sample, OverlapRoom& room, PairResu
 }
 
 void ContactForces::evaluate(int thread, std::span<const int> live, bool sample) {
-  const auto from = [&](int t) { return std::lower_bound(live.begin(), live.end(), first_pair_[z(t)]); };
+  const std::vector<int>& first = at_macro_step(state_.time) ? first_pair_ : first_fast_;
+  const auto from = [&](int t) { return std::lower_bound(live.begin(), live.end(), first[z(t)]); };
   ThreadPairs& found = thread_pairs_[z(thread)];
   const Clock::time_point began = Clock::now();
   find_due(found, std::span<const int>(from(thread), from(thread + 1)));
@@ -216,6 +223,12 @@ void ContactForces::balance_threads() {
       first_pair_[next] = found.at[std::min(count - 1, std::size_t((double(next) * share - before) / found.cost))];
     before = until;
   }
+}
+
+// Fast pairs often belong to one fragment, and would all be of one thread.
+void ContactForces::share_fast(std::span<const int> fast) {
+  const std::size_t threads = thread_pairs_.size();
+  for (std::size_t t = 1; t < threads; ++t) first_fast_[t] = fast.empty() ? 0 : fast[t * fast.size() / threads];
 }
 
 }  // namespace erbs

@@ -34,6 +34,7 @@ class ContactForces {
   void mark_changed() { changed_ = true; }  // the laws of some pairs have changed
   void prepare();                           // before the forces of a step
   void set(double budget, const Interlock& interlock);
+  void share_fast(std::span<const int> fast);  // between the threads, for the steps within a macro step
   // Forces of this thread's share of the `live` pairs.
   void evaluate(int thread, std::span<const int> live, bool sample);
   // Books the work of friction and dashpots of slow pairs, from their kick in the last step to their next one.
@@ -69,7 +70,7 @@ class ContactForces {
   std::vector<std::uint8_t> slow_;                 // per pair, as in `ContactPair`
   std::vector<std::uint8_t> edge_known_;           // per pair: found once it is asked for
   std::vector<EdgeAtRest> edge_;                   // per pair
-  std::vector<int> first_pair_;                    // first pair of each thread; balances their times
+  std::vector<int> first_pair_, first_fast_;       // first pair of each thread; balances their times; the same within a macro step
   std::vector<ThreadPairs> thread_pairs_;          // per thread
   std::vector<OverlapRoom> room_;                  // per thread
   std::vector<std::unique_ptr<PairBatch>> batch_;  // per thread

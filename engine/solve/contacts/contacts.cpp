@@ -198,6 +198,7 @@ void Contacts::list_fast_pairs() {
   for (const int i : sleep_.live())
     if (!forces_.slow(i)) fast_.push_back(i);
   motion_.select_fast(fast_);
+  forces_.share_fast(fast_);
   fast_blocks_.clear();
   for (const int i : fast_) fast_blocks_.push_back(motion_.pair(i).a), fast_blocks_.push_back(motion_.pair(i).b);
   std::ranges::sort(fast_blocks_);
