@@ -12,14 +12,13 @@ double event_allowance(const Model& m, const State& s) {
   if (m.analysis.unstable || m.analysis.solver == "sequential") return 0;
   const double many = std::clamp(std::sqrt(double(s.topology.unjoined) / few_loose), 1.0, most_for_many);
   const double sum = m.njoint > few_joints ? blow_sum : has_many_events(m, s) ? rain_sum : event_sum;
-  const double recent = std::fabs(s.energy.event_residual) / sum, all = std::fabs(s.energy.run_residual) / event_sum;
-  const double used = std::max(recent, all) / (many * s.energy.reference);
+  const double used = std::fabs(s.energy.event_residual) / (many * sum * s.energy.reference);
   return many * event_tolerance * s.energy.reference * std::max(least_allowance, 1 - used);
 }
 
 double blow_share(const Model& m) {
   const double share = own_share * std::max(1.0, double(std::ranges::count(m.kind, Kind::moving)) / few_blows);
-  return share < 0.2 ? share : std::numeric_limits<double>::infinity();  // omega dt = .9: contacts bear no more anyway
+  return share < most_own_share ? share : std::numeric_limits<double>::infinity();
 }
 
 double foresee(const Model& m, const Joint& joint, const double* gap_before, const double* gap, double budget) {

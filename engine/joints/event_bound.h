@@ -20,14 +20,16 @@ inline constexpr int foresee_every = 4;  // steps between two predictions
 inline constexpr double event_tolerance = 3e-5;
 // The same for the sum of all events: as it comes near, each event may err by less.
 inline constexpr double event_sum = 5e-4;
-inline constexpr double least_allowance = 1e-3;  // share of `event_tolerance` that is left in any case
+inline constexpr double least_allowance = 1e-2;  // share of `event_tolerance` that is left in any case
 
 // A blow of a structure of many joints is a thousand events within some hundred steps. Each errs by far less than it may, but faces that
 // meet lose more than faces that part gain, since friction and dashpots act in between: of a storey that falls on its walls 1.3 of 700 J
 // that it dissipates. So there the residual of the last steps counts, which fades: the step is shorter until the blow has passed, and then
-// no longer. In a rain of loose bricks all blows come at once, and half as much is allowed. The sum of the whole run counts as well, at
-// `event_sum`: cracked mortar that trembles at the limit of the step makes a little energy in each event, and always of the same sign
-// (h34).
+// no longer. In a rain of loose bricks all blows come at once, and half as much is allowed.
+//
+// The sum of the whole run does not count there. Cracked mortar that trembles at the limit of the step makes a little energy in each event,
+// always of the same sign: walls that a block strikes, up to 3e-3 in half a second. With that sum the ledger closed, but a wall that slides
+// on cracked beds got seven times as many steps, of ever changing length, which stirred it: 15 J of friction instead of 2.
 inline constexpr double blow_sum = 1e-4, rain_sum = 5e-5;  // shares of `Energy::reference`
 inline constexpr double recent_share = 7.0 / 8;            // of `Energy::event_residual` that each step of the ledger leaves
 inline constexpr int few_joints = 16;                      // in a structure of more joints the first opening of one is no significant event
@@ -40,8 +42,8 @@ inline constexpr double most_for_many = 4;
 
 // A blow of little energy beside that of all blocks still rebounds as asked: it may err by this share of its own energy, so that
 // omega dt < .06 for the face that lands, and the restitution by .01. Of many blocks the mean of their blows counts, and the share grows
-// with their number: a pile of 2,000 would need five times as many steps.
-inline constexpr double own_share = 1e-3;
+// with their number; of more than 200 it does not count. A pile of 2,000 would need five times as many steps.
+inline constexpr double own_share = 1e-3, most_own_share = 0.05;
 inline constexpr int few_blows = 4;  // moving blocks
 double blow_share(const Model& model);
 

@@ -36,10 +36,10 @@ struct Energy {
   double absolute_work = 0;   // Int |power| of base, external and tilt
   double largest_moving = 0;  // largest kinetic + |elastic change| so far
   double height_flux = 0;     // Int |d gravity|
-  // J, reference energy of event errors, the residual that counts for them (event_bound.h), and that of the whole run. The reference is the
-  // largest sum of energy in motion and losses. It is at least the work of lifting all blocks by a thousandth of the structure's height.
-  // All are updated at the ledger's own steps, which do not depend on the output of a run.
-  double reference = 0, event_residual = 0, run_residual = 0;
+  // J, reference energy of event errors, and the residual (event_bound.h). The reference is the largest sum of energy in motion and losses.
+  // It is at least the work of lifting all blocks by a thousandth of the structure's height. Both are updated at the ledger's own steps,
+  // which do not depend on the output of a run.
+  double reference = 0, event_residual = 0;
   double residual = 0;           // J, now
   double residual_relative = 0;  // now
   double residual_worst = 0;     // largest residual_relative so far

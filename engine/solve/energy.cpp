@@ -132,7 +132,6 @@ void Ledger::close(std::span<JointSums> joints, std::span<JointSums> cracked, st
   if (!due_) return;
   const double loss = e.friction + e.fracture + e.crushing + e.damping + e.contact_damping;
   e.reference = std::max(e.reference, std::fabs(e.kinetic) + std::fabs(e.elastic - e.elastic_at_start) + std::max(0.0, loss));
-  e.run_residual = e.residual;
   if (!many) e.event_residual = e.residual;
 }
 

@@ -89,7 +89,7 @@ void add_plot(CLI::App& app, PlotCommand& command) {
       ->type_name("FILE");
   plot.add_flag("--png", command.png, "a PNG, DIR/plot.png by default");
   plot.add_flag("--force", command.output.force, "replace an earlier picture");
-  plot.add_flag("-q,--quiet", command.output.quiet, "print errors only");
+  plot.add_flag("-q,--quiet", command.output.quiet, "print warnings and errors only");
 }
 
 void add_report(CLI::App& app, ReportCommand& command) {
@@ -98,7 +98,7 @@ void add_report(CLI::App& app, ReportCommand& command) {
   report.add_option("DIR", command.words, "the folder of a run, of erbs sweep or of erbs accuracy")->required();
   report.add_option("-o", command.output.directory, "the page (default DIR/report.html)")->check(filled())->type_name("FILE");
   report.add_flag("--force", command.output.force, "replace an earlier page");
-  report.add_flag("-q,--quiet", command.output.quiet, "print errors only");
+  report.add_flag("-q,--quiet", command.output.quiet, "print warnings and errors only");
 }
 
 void add_limit(CLI::App& app, LimitCommand& command) {
@@ -109,7 +109,7 @@ void add_limit(CLI::App& app, LimitCommand& command) {
       ->check(filled())
       ->type_name("DIR");
   limit.add_flag("--force", command.output.force, "replace an earlier analysis there");
-  limit.add_flag("-q,--quiet", command.output.quiet, "print errors only");
+  limit.add_flag("-q,--quiet", command.output.quiet, "print warnings and errors only");
   add_scene(limit, command.scene);
   limit
       .add_option("--direction", command.direction,
@@ -162,13 +162,13 @@ void add_capacity(CLI::App& app, CapacityCommand& command) {
       ->expected(1, 2);
   capacity.add_flag_callback(
       "--no-figures", [&command] { command.figures = false; }, "do not draw performance.svg");
-  capacity.add_flag("-q,--quiet", command.quiet, "print errors only");
+  capacity.add_flag("-q,--quiet", command.quiet, "print warnings and errors only");
 }
 
 void add_others(CLI::App& app, CommandLine& line) {
   CLI::App& check = *app.add_subcommand("check", "report all mistakes of a scene, and the size and cost of a run, without running it");
   check.add_option("SCENE.lua", line.check.words, "the scenes")->required();
-  check.add_flag("-q,--quiet", line.check.quiet, "print errors only");
+  check.add_flag("-q,--quiet", line.check.quiet, "print warnings and errors only");
   add_scene(check, line.check.scene);
 
   CLI::App& render = *app.add_subcommand("render", "draw a run: frames, video, curves (options: erbs-render --help)");

@@ -47,7 +47,7 @@ inline void add_max_wall(CLI::App& verb, std::optional<double>& seconds, const s
 inline void add_output(CLI::App& verb, OutputOptions& output, const std::string& place = "runs/<scene name>") {
   verb.add_option("-o", output.directory, "folder for the results (default " + place + ")")->check(filled())->type_name("DIR");
   verb.add_flag("--force", output.force, "replace an earlier run there");
-  verb.add_flag("-q,--quiet", output.quiet, "print errors only");
+  verb.add_flag("-q,--quiet", output.quiet, "print warnings and errors only");
 }
 
 inline void add_scene(CLI::App& verb, SceneOptions& scene) {
