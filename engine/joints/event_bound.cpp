@@ -17,8 +17,8 @@ double event_allowance(const Model& m, const State& s) {
 }
 
 double blow_share(const Model& m) {
-  const double share = own_share * std::max(1.0, double(std::ranges::count(m.kind, Kind::moving)) / few_blows);
-  return share < most_own_share ? share : std::numeric_limits<double>::infinity();
+  const auto moving = double(std::ranges::count(m.kind, Kind::moving));
+  return moving > few_loose ? std::numeric_limits<double>::infinity() : own_share * std::max(1.0, moving / few_blows);
 }
 
 double foresee(const Model& m, const Joint& joint, const double* gap_before, const double* gap, double budget) {

@@ -98,7 +98,6 @@ class Solver {
   // time_step.cpp
   enum class Part { all, fast, loose };  // of the moving blocks (`ContactBound::divide`)
   double next_dt(double now, double allowed, double event, Part part, int steps, int& since_limited) const;
-  bool is_debris() const;  // at most a twentieth of the blocks have joints
   double next_dt_of_all();
   void plan_macro_step(const SamplePlan& plan);
   void set_dt(double dt);

@@ -13,9 +13,6 @@
 namespace erbs {
 namespace {
 
-// Steps without a limit, after which the step grows, and the same where at most a twentieth of the blocks have joints: cracked joints open
-// and close again and again.
-constexpr int until_growth = 100, until_growth_of_debris = 40;
 constexpr double trembling = 0.1;  // of the event rate of free fall; below it a body at rest only trembles under the thresholds of sleep
 std::size_t z(int i) { return std::size_t(i); }
 
@@ -60,7 +57,7 @@ void Solver::judge_step() {
     judge(interval_before(time, loose), bound.allowed_dt(loose), [&] { return bound.stable_dt(loose); });
 }
 
-// The step `now` follows what is allowed. It shrinks at once. It grows after some steps without a limit, and by half at most, because
+// The step `now` follows what is allowed. It shrinks at once. It grows after 100 steps without a limit, and by half at most, because
 // impacts are predicted only a few steps ahead. `steps`: since the last call; `since_limited` counts them.
 double Solver::next_dt(double now, double allowed, double event, Part part, int steps, int& since_limited) const {
   if (event > 0) allowed = std::min(allowed, event);
@@ -68,19 +65,13 @@ double Solver::next_dt(double now, double allowed, double event, Part part, int 
   if (allowed < now) {
     dt = on_scale(0.95 * allowed);
     since_limited = 0;
-  } else if (now < std::max(allowed, state_.time.dt_target) &&
-             (since_limited += steps) > (part != Part::loose && is_debris() ? until_growth_of_debris : until_growth)) {
+  } else if (now < std::max(allowed, state_.time.dt_target) && (since_limited += steps) > 100) {
     if (part == Part::loose) allowed = std::min(allowed, contacts_.bound().longest_interval());
     if (allowed > 1.1 * now) dt = std::min(on_scale(0.95 * allowed), 1.5 * now);
     if (!may_grow(now, dt, part)) dt = now;
     since_limited = 0;
   }
   return dt;
-}
-
-bool Solver::is_debris() const {
-  const auto moving = std::ranges::count(model_.kind, Kind::moving);
-  return 20 * (moving - state_.topology.unjoined) <= moving;
 }
 
 double Solver::next_dt_of_all() {

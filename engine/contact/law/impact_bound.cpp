@@ -224,14 +224,16 @@ void foresee_landing(const CornersOverPlane& one, const PairFrame& s, const Cont
 
 void foresee(const ContactPair& pair, const PairFrame& s, const ContactSettings& settings, double dt, PairResult& result) {
   const ContactBlock &r = *s.reference_block, &o = *s.other_block;
-  const Vec3 apart = (o.rest - r.rest) + (o.u - r.u), v = o.v - r.v, at = r.rotation * pair.c, n = r.rotation * pair.n;
+  const Vec3 apart = (o.rest - r.rest) + (o.u - r.u), v = o.v - r.v, w = o.w - r.w, at = r.rotation * pair.c, n = r.rotation * pair.n;
   const double parting = n.dot(v + o.w.cross(at - apart) - r.w.cross(at));
   if (parting > 0) result.event_rate = std::max(result.event_rate, event_rate(pair.law.kn * pair.area, parting, result.depth, s, settings));
-  const double near = 0.01 * std::min(s.reference->thickness, s.other->thickness) + result.depth;  // m
+  const double lever = std::min(s.reference->reach, s.other->reach), thin = std::min(s.reference->thickness, s.other->thickness);
   const double face = pair.law.kn * std::min(s.reference->largest_face, s.other->largest_face);
   const bool of_other = s.other->reach <= s.reference->reach;  // corners of the smaller body
-  double soon = 0;                                             // share of a face that lands within the next steps
-  bool flat = false;                                           // nearly
+  const bool each_corner = std::isfinite(settings.blow_share);
+  const double near = 0.01 * thin + (each_corner ? result.depth : 0);  // m
+  double soon = 0;                                                     // share of a face that lands within the next steps
+  bool flat = false;                                                   // nearly
   const Opposite opposite(s, apart, near);
   for (std::size_t f = 0; f < s.reference->normal.size(); ++f) {
     const Vec3 nf = r.rotation * s.reference->normal[f];
@@ -240,17 +242,25 @@ void foresee(const ContactPair& pair, const PairFrame& s, const ContactSettings&
       const std::size_t g = opposite.face[i];
       const Vec3& ng = opposite.normal[i];
       if (-nf.dot(ng) < facing) continue;
-      const double sine = nf.cross(ng).norm();
+      const Vec3 across = nf.cross(ng);
+      const double sine = across.norm(), closes = w.dot(across);  // rate of the angle between them, times its sine
+      if (!each_corner && (!(closes > 0) || !(sine > 1e-9))) continue;
       const Vec3 corner = o.rotation * s.other->vertex[std::size_t(s.other->loop[std::size_t(s.other->loop_first[g])])];
       if (std::abs(nf.dot(apart + corner) - s.reference->offset[f]) > 2 * sine * s.other->reach + near) continue;
-      foresee_landing(of_other ? CornersOverPlane{*s.other, o, r, corners_of_face(*s.other, g), nf, s.reference->offset[f]}
-                               : CornersOverPlane{*s.reference, r, o, corners_of_face(*s.reference, f), ng, s.other->offset[g]},
-                      s, settings, face, dt, result, soon);
       flat = true;
+      if (each_corner) {
+        foresee_landing(of_other ? CornersOverPlane{*s.other, o, r, corners_of_face(*s.other, g), nf, s.reference->offset[f]}
+                                 : CornersOverPlane{*s.reference, r, o, corners_of_face(*s.reference, f), ng, s.other->offset[g]},
+                        s, settings, face, dt, result, soon);
+        continue;
+      }
+      const double rate = closes / sine, time = sine / rate;
+      result.event_rate = std::max(result.event_rate, event_rate(0.5 * face, rate * lever, sine * lever, s, settings));
+      if (rate * lever > settings.reference_speed && time <= look_ahead * dt) soon = 1;
     }
   }
   // An edge may still land on the plane of the contact.
-  if (constexpr int all[few] = {0, 1, 2, 3, 4, 5, 6, 7}; !flat && corners_known(s)) {
+  if (constexpr int all[few] = {0, 1, 2, 3, 4, 5, 6, 7}; each_corner && !flat && corners_known(s)) {
     const auto corners = [&](const ContactShape& shape) { return std::span(all).first(shape.vertex.size()); };
     foresee_landing(of_other ? CornersOverPlane{*s.other, o, r, corners(*s.other), n, n.dot(at)}
                              : CornersOverPlane{*s.reference, r, o, corners(*s.reference), -n, n.dot(apart - at)},

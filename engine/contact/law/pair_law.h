@@ -76,10 +76,9 @@ static void dashpot(PairPackFor<T>& w, const PairSettings& set) {
       load<T>(w.r[b_mass]) + load<T>(w.o[b_mass]) + dot(r, columns<T>(w.r + b_tensor) * r) + dot(o, columns<T>(w.o + b_tensor) * o);
   const T before = load<T>(w.p[p_peak_closing_speed]), kn = load<T>(w.p[p_kn]), impact = load<T>(w.p[p_impact]), total = load<T>(w.total),
           area = load<T>(w.area);
-  // slow decay against the duration of a soft impact, and none until it is over
+  // slow decay against the duration of a soft impact (about 3 depth / speed on a corner)
   const T memory = select(before > 0, max(set.memory, 30 * load<T>(w.max_depth) / nonzero(before)), T(set.memory));
-  const T rate = load<T>(w.along) + dot(load3(w.angular_part), x), over = 0.2 * before;
-  const T forgotten = before * (1 - select((rate > over) | (-rate > over), T(0), min(1, set.dt / memory)));
+  const T forgotten = before * (1 - min(1, set.dt / memory));
   const T peak_closing_speed = max(max(forgotten, load<T>(w.closing_speed)), set.reference_speed);
   // fades with speed: restitution governs an impact
   const T slow = set.reference_speed / peak_closing_speed, share = set.settling * slow * slow;
