@@ -195,21 +195,19 @@ void ContactForces::note_cost(ThreadPairs& found, double seconds) {
   found.cost = found.cost > 0 ? found.cost + newest * (std::min(cost, most * found.cost) - found.cost) : cost;
 }
 
-// Predicts events of touching pairs with enough kinetic energy. With less, an event stays within the budget at any step.
+// Predicts events of touching pairs with enough kinetic energy, or among few blocks with speed enough for their own blow to matter. With
+// less, an event stays within the budget at any step.
 void ContactForces::foresee_touching(ThreadPairs& found) {
   if (!(settings_.event_budget > 0)) return;
   const double soon = 1.5 * std::max(macro_dt(state_.time), state_.time.last_dt), slow = settings_.reference_speed;
   for (Force& one : found.forces) {
     const MotionBounds::PairBound& pair = motion_.pair(one.pair);
     const ContactBlock &a = bodies_.block[z(pair.a)], &b = bodies_.block[z(pair.b)];
-    const PairFrame frame = frame_of(cache_[z(one.pair)].bodies, a, b);
-    // from the present spins: those of `MotionBounds` are as old as its last update, which depends on what sleeps
-    const double square = (b.v - a.v).squaredNorm() +
-                          frame.reference_block->w.squaredNorm() * frame.reference->reach * frame.reference->reach +
-                          frame.other_block->w.squaredNorm() * frame.other->reach * frame.other->reach;
+    const double spin_a = motion_.spin(pair.a), spin_b = motion_.spin(pair.b);
+    const double square = (b.v - a.v).squaredNorm() + spin_a * spin_a + spin_b * spin_b;
     const double least = foresee_threshold * settings_.event_budget * std::max(a.inverse_mass, b.inverse_mass);
     if (!(square > (std::isfinite(settings_.blow_share) ? std::min(least, slow * slow) : least))) continue;
-    foresee(state_.contacts.list.pair[z(one.pair)], frame, settings_, soon, one.result);
+    foresee(state_.contacts.list.pair[z(one.pair)], frame_of(cache_[z(one.pair)].bodies, a, b), settings_, soon, one.result);
   }
 }
 
