@@ -25,13 +25,14 @@ struct alignas(64) PointPack {
   double s[pack_size], t[pack_size], weight[pack_size];  // m, m, m2
 };
 struct alignas(64) SlipPack {
-  double s[pack_size], t[pack_size], mean_pressure[pack_size];  // as in `PointHistory`
+  double s[pack_size], t[pack_size], mean_pressure[pack_size], lent[pack_size];  // as in `PointHistory`
 };
 // The rigid motion nearest to the slips of all points, and the residual slips. `outdated`: the slips have changed since.
 struct MeanSlipPack {
   double s[pack_size], t[pack_size], rotation[pack_size];  // m, rad
   double apart[pack_size], stored[pack_size];              // m, greatest residual; J, of the springs when the joint is at that rigid motion
   double outdated[pack_size];                              // 0 or 1
+  double lent[pack_size];                                  // > 0: to some point (interlock.h)
 };
 struct alignas(64) BondPack {
   double damage[pack_size], secant[pack_size], kappa[pack_size];  // as in `PointHistory`

@@ -261,17 +261,6 @@ void distribute_pressure(const Model& m, const Joint& joint, const CrushedFace* 
   if (share == 0) at_points[deepest] = force;
 }
 
-// Replaces the pressure of a point by its mean pressure, where that is higher and the joint slides slowly (`interlock.h`).
-void apply_interlock(const Model& m, const Joint& joint, const double* gap_before, const double* gap, const JointPast& past,
-                     double* pressure) {
-  if (!(past.interlock.gap > 0)) return;
-  const Point* point = &m.point[std::size_t(joint.type->first_cell)];
-  const bool slow = slides_slowly(past.interlock, gap, gap_before, joint.type->radius);
-  for (int i = 0; i < joint.type->points; ++i)
-    pressure[i] = point[i].weight * interlocked_stress(past.interlock, past.point[i].mean_pressure, gap_at(gap, point[i].s, point[i].t).n,
-                                                       pressure[i] / point[i].weight, slow);
-}
-
 }  // namespace
 
 Interlock interlock_now(const Model& m, const State& s) {
@@ -284,14 +273,15 @@ Interlock interlock_now(const Model& m, const State& s) {
   const double way = interlock_speed * std::sqrt(g * m.settlement) * t.last_dt,
                since = (levels ? macro_steps * t.last_substeps : interlock_every) * t.last_dt,
                time = interlock_time * std::sqrt(m.settlement / g);
-  return {interlock_gap * m.settlement, way * way, due && since > 0 ? since / (since + time) : 0};
+  return {interlock_gap * m.settlement, way * way, due && since > 0 ? since / (since + time) : 0, t.last_dt,
+          interlock_loan * std::sqrt(m.settlement / g)};
 }
 
 Interlock contact_interlock(const Model& m, const State& s) {
   const double g = m.gravity.norm(), d = m.settlement;
   if (!(g > 0 && d > 0)) return {};
   return {interlock_gap * d, interlock_speed * interlock_speed * g * d,
-          s.time.last_dt / (s.time.last_dt + interlock_time * std::sqrt(d / g))};
+          s.time.last_dt / (s.time.last_dt + interlock_time * std::sqrt(d / g)), s.time.last_dt, interlock_loan * std::sqrt(d / g)};
 }
 
 bool respond(const Model& m, int j, bool intact, const double* gap_before, const double* gap, JointPast past, double* resultant,
@@ -318,7 +308,7 @@ bool respond(const Model& m, int j, bool intact, const double* gap_before, const
   energy.elastic += closed.energy;
   if (intact) energy.fracture += change_of_form(joint, gap_before, gap);
   distribute_pressure(m, joint, crushed, gap, law.kn, closed.force, pressure.data());
-  apply_interlock(m, joint, gap_before, gap, past, pressure.data());
+  const bool slow = slides_slowly(past.interlock, gap, gap_before, joint.type->radius);
   for (int i = 0; i < joint.type->points; ++i) {
     PointHistory& h = past.point[i];
     const PointGap g = gap_at(gap, point[i].s, point[i].t);
@@ -331,7 +321,12 @@ bool respond(const Model& m, int j, bool intact, const double* gap_before, const
       sigma = damage_by_opening(law, bond, holds, widest(m, cell, gap, g.n), g.n);
       if (law.closing_ultimate > 0) damage_by_closing(law, bond, holds, widest(m, cell, gap, g.n, -1), sigma);
     }
-    const InPlane<double> tau = shear(law, point[i], pressure[std::size_t(i)], sigma, gap_before, g, bond, h, energy, limit);
+    const double weight = point[i].weight, stress = pressure[std::size_t(i)] / weight,
+                 held = interlocked_stress(past.interlock, h.mean_pressure, h.lent, g.n, stress, slow);
+    const InPlane<double> tau = shear(law, point[i], weight * held, sigma, gap_before, g, bond, h, energy, limit);
+    h.lent = lent_after(
+        past.interlock, h.lent, stress, held,
+        pressure_of_friction(std::sqrt(square(tau)), bond_shear(law, sigma, bond.damage) * weight, friction_at(law, bond.damage), weight));
     h.damage = bond.damage, h.secant = bond.secant, h.kappa = bond.kappa;
     if (shear_limit != nullptr) shear_limit[i] = limit;
     resultant[0] += tau.s;

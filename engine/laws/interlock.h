@@ -9,8 +9,14 @@
 // The remedy: asperities of real joints stay interlocked over such hops. Friction of a point therefore follows the mean of its pressure
 // over some hops, if that exceeds the current pressure. Two conditions limit this. The gap is at most a multiple of d, the settlement of
 // the structure under its own weight. The slip rate is at most a multiple of sqrt(g d). Such hops are so high and so fast. A joint that
-// slips faster feels the current pressure, so that its mean friction is Coulomb's.
+// slips faster feels the current pressure.
 // Slip then dissipates at least mu times the mean pressure. Below the friction angle the slope supplies less, so the creep ends.
+//
+// What friction takes beyond the current pressure is lent: the impulse is kept, and while the pressure is above its mean, friction stays
+// at the mean until it is paid back. So over some hops friction is Coulomb's. The greater of mean and current pressure alone, without
+// paying back, would be more than either in the mean: a wall of undamped mortar on a cracked bed, whose pressure trembles by its own size,
+// stood under 1 g at mu = .6. No more is lent than the mean pressure gives in a few hops, so a bed that is unloaded for good lets go. The
+// mean starts from zero: a mean that starts with the blow of a landing face would lend a multiple of the weight.
 // All scales derive from d and g: the model has no length, time or speed of its own.
 #pragma once
 
@@ -19,6 +25,7 @@ namespace erbs {
 inline constexpr double interlock_gap = 100;    // times d: largest gap
 inline constexpr double interlock_time = 100;   // times sqrt(d / g): averaging time; the structure hops with a period of about 5
 inline constexpr double interlock_speed = 120;  // times sqrt(g d): largest slip rate
+inline constexpr double interlock_loan = 10;    // times sqrt(d / g): an impulse of at most the mean pressure over this time is lent
 inline constexpr int interlock_every = 8;       // steps between updates of the mean pressure
 
 // The same limits in the units of a step.
@@ -26,6 +33,8 @@ struct Interlock {
   double gap = 0;   // m; 0: no interlock
   double slow = 0;  // m2, square of the largest slip in a step
   double rate = 0;  // share of the difference by which the mean is updated in this step; 0: no update
+  double dt = 0;    // s, since the last evaluation
+  double loan = 0;  // s, over which the mean pressure may be lent
 };
 
 }  // namespace erbs

@@ -36,6 +36,7 @@ struct PointHistory {
   double damage = 0;
   double secant = 0, kappa = 0;  // Pa/m, m: secant stiffness and largest opening at this damage, stored to save divisions; unset at 0
   double mean_pressure = 0;      // Pa, mean pressure (interlock.h)
+  double lent = 0;               // Pa s, of friction beyond the current pressure, over its coefficient (interlock.h)
 };
 
 }  // namespace erbs

@@ -66,12 +66,24 @@ ERBS_INLINE T share_within(InPlane<T> present, InPlane<T> drag, T limit, M past)
 }
 
 // The pressure (Pa) that friction of a point follows (interlock.h): its momentary pressure `stress`, or the mean if that is higher, the
-// faces are `slow` and the gap (m) is small. Updates the mean.
+// faces are `slow` and the gap (m) is small; less what is to be paid back of `lent` (Pa s) if it is lower. Updates the mean.
 template <class T, class M>
-ERBS_INLINE T interlocked_stress(const Interlock& lock, T& mean, T gap, T stress, M slow) {
-  const M near = gap < lock.gap;
-  if (lock.rate > 0) mean = select(near, select(mean > 0, mean + (stress - mean) * lock.rate, stress), T(0));
-  return select(near & slow & (mean > stress), mean, stress);
+ERBS_INLINE T interlocked_stress(const Interlock& lock, T& mean, T lent, T gap, T stress, M slow) {
+  if (lock.rate > 0) mean = mean + (stress - mean) * lock.rate;
+  const T held = select(lent > 0, max(mean, stress - lent * (lock.dt > 0 ? 1 / lock.dt : 0)), stress);
+  return select(mean > stress, select((gap < lock.gap) & slow & (lent < lock.loan * mean), mean, stress), held);
+}
+
+// What is lent after this step, in which friction followed the pressure `held` and was that of the pressure `used` (Pa).
+template <class T>
+ERBS_INLINE T lent_after(const Interlock& lock, T lent, T stress, T held, T used) {
+  return select((lent > 0) | (held > stress), max(lent + (used - stress) * lock.dt, 0), T(0));
+}
+
+// The pressure (Pa) that gives a shear of `size` (N) beyond the `strength` (N) of the bond.
+template <class T>
+ERBS_INLINE T pressure_of_friction(T size, T strength, T friction, T weight) {
+  return max(size - strength, 0) / nonzero(friction * weight);
 }
 
 // Whether a joint slides slowly: the change of its relative displacement over a step, rotation taken at `radius` (m).

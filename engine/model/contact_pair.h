@@ -54,6 +54,7 @@ struct alignas(64) ContactPair {
   // present state of the friction springs and of interlock
   double tangential = 0;         // J, energy of the springs
   double mean_normal_force = 0;  // N, mean normal force (interlock.h)
+  double lent = 0;               // N s, of friction beyond the current force, over its coefficient (interlock.h)
   // wrenches of the last step; half a step of their work is not yet booked
   PairWrench friction, damping;
   // Offset at which contact sees the other body, pair axes. With it the contact stores as much energy as the joint did before its release
@@ -130,8 +131,8 @@ void each(P& p, F&& f) {
   f("b_is_reference", p.b_is_reference), f("touching", p.touching), f("former_joint", p.former_joint), f("slow", p.slow),
       f("separating_axis", p.separating_axis);
   f("rotation", p.rotation), f("shift", p.shift), f("n", p.n), f("c", p.c), f("u", p.u), f("psi", p.psi);
-  f("area", p.area), f("gyration", p.gyration), f("mean_normal_force", p.mean_normal_force), f("peak_closing_speed", p.peak_closing_speed),
-      f("impact", p.impact);
+  f("area", p.area), f("gyration", p.gyration), f("mean_normal_force", p.mean_normal_force), f("lent", p.lent),
+      f("peak_closing_speed", p.peak_closing_speed), f("impact", p.impact);
   f("bound_share_a", p.bound_share_a), f("bound_share_b", p.bound_share_b);
   f("friction", p.friction), f("damping", p.damping), f("lift", p.lift), f("tangential", p.tangential);
 }

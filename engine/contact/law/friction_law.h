@@ -124,10 +124,25 @@ ERBS_INLINE T friction_limit(PairPackFor<T>& w, const PairSettings& set, Vec3<T>
       load<T>(w.area) * (load<T>(w.r[b_inertia]) + load<T>(w.o[b_inertia])) > set.flat_face * (load<T>(w.r[b_mass]) + load<T>(w.o[b_mass]));
   const T rate = select(flat, T(set.rate), T(0)), slow = select(flat, T(set.slow), T(0));
   const T pressed = load<T>(w.p[p_kn]) * load<T>(w.size), before = load<T>(w.p[p_mean_normal_force]),
-          mean = select(before > 0, before + (pressed - before) * rate, pressed);
-  const MaskFor<T> is_slow = dot(across, across) < slow, interlocks = (mean > pressed) & is_slow;
+          mean = before + (pressed - before) * rate;
+  const T lent = select(flat, load<T>(w.p[p_lent]), T(0)), owed = lent * (set.dt > 0 ? 1 / set.dt : 0);
+  const MaskFor<T> is_slow = dot(across, across) < slow;
+  const MaskFor<T> lends = (mean > pressed) & is_slow & (lent < set.loan * mean);
+  const T held = select((lent > 0) & (pressed > mean), max(mean, pressed - owed), pressed);
   store(w.p[p_mean_normal_force], mean);
-  return load<T>(w.p[p_mu]) * select(interlocks, mean, pressed);
+  return load<T>(w.p[p_mu]) * select(lends, mean, held);
+}
+
+// What is lent after this step, in which springs and dashpots took no more than their limit.
+template <class T>
+ERBS_INLINE void lend(PairPackFor<T>& w, const PairSettings& set) {
+  const T lent = load<T>(w.p[p_lent]), pressed = load<T>(w.p[p_kn]) * load<T>(w.size), limit = load<T>(w.most), mu = load<T>(w.p[p_mu]);
+  const MaskFor<T> lends = (lent > 0) | (limit > mu * pressed);
+  if (!any(lends)) return;
+  const Vec3<T> t = load3(w.springs);
+  const T about = (load<T>(w.torsion) + dot(load3(w.lever), t)) / nonzero(load<T>(w.radius));
+  const T used = min(sqrt(dot(t, t) + about * about), limit) / nonzero(mu);
+  store(w.p[p_lent], select(lends, max(lent + (used - pressed) * set.dt, 0), lent));
 }
 
 // Springs stick, whatever the shape of the patch, while the squares of force and torsion over their limits add up to no more than this.

@@ -134,7 +134,7 @@ void take_shear(ContactPair& pair, const PairFrame& s, const Patch& patch, const
   const double kt = pair.law.ks * pair.area, kr = kt * pair.gyration * pair.gyration;
   if (kt > 0) pair.u = -(force - force.dot(pair.n) * pair.n) / kt;
   if (kr > 0) pair.psi = -(moment - patch.centroid.cross(force)).dot(pair.n) / kr;
-  pair.mean_normal_force = pressed;
+  pair.mean_normal_force = pressed, pair.lent = 0;
   OnePair w;
   fill(w, pair, s, patch, saturated_contacts);
   w.size[0] = pressed / pair.law.kn;
@@ -165,6 +165,7 @@ PairSettings pair_settings(const ContactSettings& s, const PairInterval& interva
           s.settling_tangential,
           s.interlock.slow,
           s.interlock.rate,
+          s.interlock.loan,
           flat_face,
           slender};
 }

@@ -39,8 +39,8 @@ using OnePair = PairPackOf<1>;
 struct PairSettings {
   double dt, drift;  // s, since the last evaluation; of the last drift, by half of which velocities lag behind poses
   double booked;     // 1: the work of the last wrenches after their kick is booked already, else 0
-  double memory, reference_speed, settling, settling_tangential, slow, rate;  // as in ContactSettings and Interlock
-  double flat_face, slender;                                                  // `pair.h`
+  double memory, reference_speed, settling, settling_tangential, slow, rate, loan;  // as in ContactSettings and Interlock
+  double flat_face, slender;                                                        // `pair.h`
 };
 
 // Eight blocks side by side as in State, and their rows as pairs read them.

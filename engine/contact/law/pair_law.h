@@ -204,6 +204,7 @@ static void finish(PairPackFor<T>& w, const PairSettings& set) {
   const MaskFor<T> swapped = load<T>(w.swapped) > 0;
   const Springs<T> springs = springs_after<T>(w);
   act<T>(w, set, springs, swapped);
+  lend<T>(w, set);
   Lanes<T>* out = w.result;
   store(out[f_tangential], springs.stored);
   store(out[f_slip_omega2], select(springs.slipped > 0, load<T>(w.p[p_kn]) * load<T>(w.area) * load<T>(w.inverse_mass), T(0)));

@@ -25,7 +25,15 @@ enum : int {
   p_psi = 26,
   p_area = 27
 };
-enum : int { p_gyration = 28, p_peak_closing_speed = 29, p_tangential = 30, p_mean_normal_force = 31, p_friction = 32, p_damping = 41 };
+enum : int {
+  p_gyration = 28,
+  p_peak_closing_speed = 29,
+  p_tangential = 30,
+  p_mean_normal_force = 31,
+  p_lent = 32,
+  p_friction = 33,
+  p_damping = 42
+};
 enum : int { b_u = 0, b_rotation = 3, b_v = 12, b_w = 15, b_mass = 18, b_inertia = 19, b_rest = 20, b_tensor = 23 };
 enum : int {
   f_wrench = 0,

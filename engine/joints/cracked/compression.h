@@ -205,9 +205,12 @@ ERBS_INLINE Pack compress(const PointLaw& law, const CrackedShape& shape, Cracki
 // `interlocked_stress()` of a point of the pack, with its mean pressure in memory.
 ERBS_INLINE Pack interlocked_stress(const CrackedShape& shape, SlipPack& slip, Pack gap, Pack stress, Mask slow) {
   Pack mean = load(slip.mean_pressure);
-  const Pack held = interlocked_stress(shape.interlock, mean, gap, stress, slow);
+  const Pack held = interlocked_stress(shape.interlock, mean, load(slip.lent), gap, stress, slow);
   if (shape.interlock.rate > 0) store(slip.mean_pressure, mean);
   return held;
+}
+ERBS_INLINE void lend(const CrackedShape& shape, SlipPack& slip, Pack stress, Pack held, Pack used) {
+  store(slip.lent, lent_after(shape.interlock, load(slip.lent), stress, held, used));
 }
 ERBS_INLINE Mask slides_slowly(const CrackedShape& shape, const Cracking& c) {
   return slides_slowly(shape.interlock, c.gap, c.gap_before, load(shape.face->radius));

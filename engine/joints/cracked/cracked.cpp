@@ -28,6 +28,13 @@ int own_numbers(const PointLaw& law) {
   return numbers;
 }
 
+// Whether each joint has lent to a point, for the kernel of joints without a bond.
+void find_lent(CrackedPack& lane, int points) {
+  std::fill_n(lane.mean_slip.lent, pack_size, 0.0);
+  for (int i = 0; i < points; ++i)
+    for (int l = 0; l < pack_size; ++l) lane.mean_slip.lent[l] = std::max(lane.mean_slip.lent[l], lane.slip()[i].lent[l]);
+}
+
 double total(const double* x) { return ((x[0] + x[1]) + (x[2] + x[3])) + ((x[4] + x[5]) + (x[6] + x[7])); }
 
 }  // namespace
@@ -82,10 +89,12 @@ void Cracked::clear(Group& group, int l) {
   for (int i = 0; i < 6; ++i) lane.gap[i][l] = lane.resultant[i][l] = lane.drag[i][l] = 0;
   lane.stored[l] = 0;
   lane.least_damage[l] = 1;
-  for (int i = 0; i < group.points; ++i) lane.slip()[i].s[l] = lane.slip()[i].t[l] = lane.slip()[i].mean_pressure[l] = 0;
+  for (int i = 0; i < group.points; ++i)
+    lane.slip()[i].s[l] = lane.slip()[i].t[l] = lane.slip()[i].mean_pressure[l] = lane.slip()[i].lent[l] = 0;
   for (int i = 0; i < group.own_numbers; ++i) lane.own(group.points)[i][l] = 0;
   MeanSlipPack& mean_slip = lane.mean_slip;
-  for (auto* x : {mean_slip.s, mean_slip.t, mean_slip.rotation, mean_slip.apart, mean_slip.stored, mean_slip.outdated}) x[l] = 0;
+  for (auto* x : {mean_slip.s, mean_slip.t, mean_slip.rotation, mean_slip.apart, mean_slip.stored, mean_slip.outdated, mean_slip.lent})
+    x[l] = 0;
   for (BondPack& p : group.bond) p.secant[l] = p.kappa[l] = 0, p.damage[l] = 1;  // no bond
   lane.tension_outdated = 1;
   group.update_debonded(model_.laws[z(group.law)]);
@@ -109,13 +118,14 @@ void Cracked::fill(Group& group, int l, int j) {
   for (int i = 0; i < 6; ++i) lane.gap[i][l] = memory.gap[i];
   lane.least_damage[l] = may_release(joint, law, memory) ? 1 : 0;
   for (int i = 0; i < group.own_numbers; ++i) lane.own(group.points)[i][l] = memory.own[i];
-  lane.mean_slip.outdated[l] = 1;
+  lane.mean_slip.outdated[l] = 1, lane.mean_slip.lent[l] = 0;
   lane.tension_outdated = 1;
   if (model_.dashpots_cracked)
     for (int i = 0; i < 6; ++i) lane.drag[i][l] = state_.joints.viscous[6 * z(j) + z(i)];
   for (int i = 0; i < joint.type->points; ++i) {
     const PointHistory& h = state_.joints.history[z(joint.first_point + i)];
     lane.slip()[i].s[l] = h.slip_s, lane.slip()[i].t[l] = h.slip_t, lane.slip()[i].mean_pressure[l] = h.mean_pressure;
+    lane.slip()[i].lent[l] = h.lent, lane.mean_slip.lent[l] = std::max(lane.mean_slip.lent[l], h.lent);
     BondPack& b = group.bond[z(i)];
     b.damage[l] = h.damage, b.secant[l] = h.secant, b.kappa[l] = h.kappa;
     if (law.has_bond()) lane.least_damage[l] = std::min(lane.least_damage[l], h.damage);
@@ -310,6 +320,7 @@ void Cracked::forces(int first, int last, bool sample, double budget, JointSums&
       std::fill_n(lane.mean_slip.outdated, pack_size, 1.0);
       group.damage_changed = true;
       group.debonded = std::all_of(lane.least_damage, lane.least_damage + pack_size, [](double damage) { return damage >= 1; });
+      if (group.debonded) find_lent(lane, group.points);
     }
     if (sample) sums.energy.elastic += total(lane.stored);
   }
@@ -349,6 +360,7 @@ void Cracked::store(const Group& group, int l, bool damage_changed) {
   PointHistory* h = &state_.joints.history[z(model_.joint[z(j)].first_point)];
   for (int i = 0; i < group.points; ++i) {
     h[i].slip_s = lane.slip()[i].s[l], h[i].slip_t = lane.slip()[i].t[l], h[i].mean_pressure = lane.slip()[i].mean_pressure[l];
+    h[i].lent = lane.slip()[i].lent[l];
     if (!damage_changed) continue;
     const BondPack& b = group.bond[z(i)];
     h[i].damage = b.damage[l], h[i].secant = b.secant[l], h[i].kappa = b.kappa[l];

@@ -49,7 +49,7 @@ template <bool damped>
 ERBS_INLINE StickState try_stick(const PointLaw& law, double mu, const CrackedShape& shape, const SlipPack* slip, Pack closed_by,
                                  MeanSlipPack& mean_slip, Cracking& c) {
   StickState out{};
-  const Mask closed = closed_by > 0;
+  const Mask closed = (closed_by > 0) & !(load(mean_slip.lent) > 0);
   if (!any(closed)) return out;
   if (any(closed & (load(mean_slip.outdated) > 0))) find_mean_slip(law.ks, shape, slip, mean_slip);
   const Pack s = c.gap[0] - load(mean_slip.s), t = c.gap[1] - load(mean_slip.t), rotation = c.gap[5] - load(mean_slip.rotation),
@@ -77,9 +77,10 @@ struct SlipSums {
   Mask slid;
 };
 
-// Friction of a point without a bond. Its pressure, given by `depth`, allows an elastic slip of `limit` (m).
+// Friction of a point without a bond. Its pressure, given by `depth`, allows an elastic slip of `limit` (m). Returns the square of the
+// elastic slip.
 template <bool damped>
-ERBS_INLINE void friction_at_point(const PointPack& point, SlipPack& slip, Pack depth, Pack limit, const Cracking& c, SlipSums& sum) {
+ERBS_INLINE Pack friction_at_point(const PointPack& point, SlipPack& slip, Pack depth, Pack limit, const Cracking& c, SlipSums& sum) {
   const Pack s = load(point.s), t = load(point.t), weight = load(point.weight), slip_s = load(slip.s), slip_t = load(slip.t);
   const Pack rigid_s = c.gap[0] - c.gap[5] * t, rigid_t = c.gap[1] + c.gap[5] * s;
   Pack gs = rigid_s - slip_s, gt = rigid_t - slip_t;
@@ -99,7 +100,8 @@ ERBS_INLINE void friction_at_point(const PointPack& point, SlipPack& slip, Pack 
   sum.t += wt;
   sum.rotation += wt * s - ws * t;
   sum.stored += ws * gs + wt * gt;
-  if (!damped) return;
+  const Pack left_square = min(trial, most);
+  if (!damped) return left_square;
   const Pack rate = select((trial <= most) & (depth > 0), c.debonded_rate, Pack(0)), rotation = c.gap[5] - c.gap_before[5];
   const InPlane<Pack> elastic{gs, gt};
   InPlane<Pack> drag{rate * ((c.gap[0] - c.gap_before[0]) - rotation * t), rate * ((c.gap[1] - c.gap_before[1]) + rotation * s)};
@@ -112,6 +114,7 @@ ERBS_INLINE void friction_at_point(const PointPack& point, SlipPack& slip, Pack 
   sum.drag_s += drag_s;
   sum.drag_t += drag_t;
   sum.drag_rotation += drag_t * s - drag_s * t;
+  return left_square;
 }
 
 // Points of faces that are open, and were so before, follow the faces.
@@ -128,11 +131,15 @@ ERBS_INLINE void friction_at_points(double mu, Pack scale, const Pack* depth, co
   SlipSums sum{};
   const Pack lets = mu / c.ks;
   const Mask slow = slides_slowly(shape, c);
+  Pack lent{};
   for (int i = 0; i < shape.points; ++i) {
-    const Pack held = interlocked_stress(shape, slip[i], gap_of(shape.point[i], c.gap), scale * depth[i], slow);
+    const Pack gap = gap_of(shape.point[i], c.gap), stress = scale * depth[i], held = interlocked_stress(shape, slip[i], gap, stress, slow);
     // no limit where all stick
-    friction_at_point<damped>(shape.point[i], slip[i], depth[i], select(stick.mask, Pack(1e150), lets * held), c, sum);
+    const Pack square = friction_at_point<damped>(shape.point[i], slip[i], depth[i], select(stick.mask, Pack(1e150), lets * held), c, sum);
+    if (any((held > stress) | (load(slip[i].lent) > 0))) lend(shape, slip[i], stress, held, sqrt(square) / nonzero(lets));
+    lent = max(lent, load(slip[i].lent));
   }
+  store(mean_slip.lent, lent);
   c.resultant[0] = select(stick.mask, stick.s, c.ks * sum.s);
   c.resultant[1] = select(stick.mask, stick.t, c.ks * sum.t);
   c.resultant[5] = select(stick.mask, stick.rotation, c.ks * sum.rotation);

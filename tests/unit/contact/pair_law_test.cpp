@@ -62,6 +62,7 @@ void random_pair(Draw& draw, const ContactBlock& reference, const ContactBlock& 
   pair.peak_closing_speed = draw.one_in(3) ? 0 : draw.positive(2);
   pair.tangential = draw.positive(1e-3);
   pair.mean_normal_force = draw.one_in(3) ? 0 : draw.positive(2e6 * area);
+  pair.lent = draw.one_in(3) ? 0 : draw.positive(1e-4 * pair.mean_normal_force);
   for (PairWrench* w : {&pair.friction, &pair.damping}) *w = {draw.vec(100), draw.vec(10), draw.vec(10)};
   pair.b_is_reference = draw.one_in(2);
   pair.touching = 1;
@@ -106,7 +107,7 @@ TEST_CASE("a number and a pack obey one law of a pair, to the last bit", "[conta
   for (int trial = 0; trial < 2000; ++trial) {
     ContactPair pair[8];
     ContactBlock block[8][2];
-    const PairSettings settings = pair_settings({.interlock = {1e-3, 1, 0.1}}, trial % 10 == 0 ? 0 : 1e-5);
+    const PairSettings settings = pair_settings({.interlock = {1e-3, 1, 0.1, 1e-5, 1e-4}}, trial % 10 == 0 ? 0 : 1e-5);
     *pack = {}, *other = {};
     for (int l = 0; l < 8; ++l) {
       OnePair& one = alone[std::size_t(l)];
