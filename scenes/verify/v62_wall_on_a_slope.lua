@@ -3,7 +3,7 @@
 -- What happens   A wall of strong mortar stands on a bed without bond, steeper than its friction angle. It slides off, and waves run through
 --                it, since nothing damps them: the pressure of the bed trembles by more than its own size. Its mean acceleration is that
 --                of a rigid block. On a slope below the friction angle it stands, although it trembles as well. Friction is less than mu
---                only where bricks swing faster than the wall slides (mortar_kn = 1e10: .57 instead of .6), since it then turns with them.
+--                only where bricks swing faster than the wall slides (mortar_kn = 1e10: .54 instead of .6), since it then turns with them.
 -- Source         Coulomb: acceleration g (sin(slope) - mu cos(slope)), from which the coefficient of friction follows
 -- How to run     erbs run scenes/verify/v62_wall_on_a_slope.lua [-D slope=33 -D kn=1e11 -D rows=8]
 -- What to look at  metrics.friction_over_mu between half of the run and its end, or metrics.drift (m) where it stands
