@@ -2,6 +2,7 @@
 #pragma once
 #include <math.h>
 
+#include "engine/contact/law/friction_limit.h"
 #include "engine/contact/law/pair_lanes.h"
 #include "engine/contact/law/pair_rows.h"
 #include "engine/simd/vec3.h"
@@ -114,35 +115,6 @@ ERBS_INLINE void stretch_springs(PairPackFor<T>& w) {
   store(w.p[p_gyration], max(gyration, gyration_now));
   store3(w.p + p_n, n);
   store3(w.p + p_c, centre);
-}
-
-// The largest force of friction (N). Interlock acts where faces lie flat on each other, not at edges and corners: with interlock there,
-// bodies of a heap tremble for ever.
-template <class T>
-ERBS_INLINE T friction_limit(PairPackFor<T>& w, const PairSettings& set, Vec3<T> across) {
-  const MaskFor<T> flat =
-      load<T>(w.area) * (load<T>(w.r[b_inertia]) + load<T>(w.o[b_inertia])) > set.flat_face * (load<T>(w.r[b_mass]) + load<T>(w.o[b_mass]));
-  const T rate = select(flat, T(set.rate), T(0)), slow = select(flat, T(set.slow), T(0));
-  const T pressed = load<T>(w.p[p_kn]) * load<T>(w.size), before = load<T>(w.p[p_mean_normal_force]),
-          mean = before + (pressed - before) * rate;
-  const T lent = select(flat, load<T>(w.p[p_lent]), T(0)), owed = lent * (set.dt > 0 ? 1 / set.dt : 0);
-  const MaskFor<T> is_slow = dot(across, across) < slow;
-  const MaskFor<T> lends = (mean > pressed) & is_slow & (lent < set.loan * mean);
-  const T held = select((lent > 0) & (pressed > mean), max(mean, pressed - owed), pressed);
-  store(w.p[p_mean_normal_force], mean);
-  return load<T>(w.p[p_mu]) * select(lends, mean, held);
-}
-
-// What is lent after this step, in which springs and dashpots took no more than their limit.
-template <class T>
-ERBS_INLINE void lend(PairPackFor<T>& w, const PairSettings& set) {
-  const T lent = load<T>(w.p[p_lent]), pressed = load<T>(w.p[p_kn]) * load<T>(w.size), limit = load<T>(w.most), mu = load<T>(w.p[p_mu]);
-  const MaskFor<T> lends = (lent > 0) | (limit > mu * pressed);
-  if (!any(lends)) return;
-  const Vec3<T> t = load3(w.springs);
-  const T about = (load<T>(w.torsion) + dot(load3(w.lever), t)) / nonzero(load<T>(w.radius));
-  const T used = min(sqrt(dot(t, t) + about * about), limit) / nonzero(mu);
-  store(w.p[p_lent], select(lends, max(lent + (used - pressed) * set.dt, 0), lent));
 }
 
 // Springs stick, whatever the shape of the patch, while the squares of force and torsion over their limits add up to no more than this.

@@ -156,18 +156,11 @@ PairWrench to_world(const ContactPair& pair, const PairFrame& s, const Vec3& for
 }  // namespace
 
 PairSettings pair_settings(const ContactSettings& s, const PairInterval& interval) {
-  return {interval.since,
-          interval.drift,
-          interval.booked ? 1.0 : 0.0,
-          s.memory,
-          s.reference_speed,
-          s.settling,
-          s.settling_tangential,
-          s.interlock.slow,
-          s.interlock.rate,
-          s.interlock.loan,
-          flat_face,
-          slender};
+  Interlock interlock = s.interlock;
+  interlock.dt = interval.since;
+  return {interval.since,    interval.drift, interval.booked ? 1.0 : 0.0, s.memory,
+          s.reference_speed, s.settling,     s.settling_tangential,       interlock,
+          flat_face,         slender};
 }
 
 double power(const PairWrench& w, const ContactBlock& a, const ContactBlock& b) { return power(w, b.v - a.v, a.w, b.w); }

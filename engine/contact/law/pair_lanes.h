@@ -2,6 +2,7 @@
 // elementwise, so that a pair's numbers do not depend on its neighbours.
 #pragma once
 #include "engine/contact/overlap/clip.h"
+#include "engine/laws/interlock.h"
 
 namespace erbs {
 
@@ -28,7 +29,7 @@ struct alignas(64) PairPackOf {
   Row inverse_mass, chi, limit;  // of the dashpot
   Row damping[4];                // total and first moment from `ClipKernels::damp`, kn = 1
   // Friction: springs with their slip, dashpots, and the part within the limit.
-  Row u0[3], psi0, u1[3], psi1, kt, kr, springs[3], torsion, dashpots[3], dashpot_torsion, lever[3], most, radius, share;
+  Row u0[3], psi0, u1[3], psi1, kt, kr, springs[3], torsion, dashpots[3], dashpot_torsion, lever[3], held, most, radius, share;
   Row holds;  // 1: springs and dashpots are surely within the limit
   Row slips;
   Row result[8 * result_rows];
@@ -39,8 +40,9 @@ using OnePair = PairPackOf<1>;
 struct PairSettings {
   double dt, drift;  // s, since the last evaluation; of the last drift, by half of which velocities lag behind poses
   double booked;     // 1: the work of the last wrenches after their kick is booked already, else 0
-  double memory, reference_speed, settling, settling_tangential, slow, rate, loan;  // as in ContactSettings and Interlock
-  double flat_face, slender;                                                        // `pair.h`
+  double memory, reference_speed, settling, settling_tangential;  // as in ContactSettings
+  Interlock interlock;                                            // the same, over this interval
+  double flat_face, slender;                                      // `pair.h`
 };
 
 // Eight blocks side by side as in State, and their rows as pairs read them.

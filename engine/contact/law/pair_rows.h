@@ -23,9 +23,7 @@ enum : int {
   p_c = 20,
   p_u = 23,
   p_psi = 26,
-  p_area = 27
-};
-enum : int {
+  p_area = 27,
   p_gyration = 28,
   p_peak_closing_speed = 29,
   p_tangential = 30,
