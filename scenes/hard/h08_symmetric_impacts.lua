@@ -53,7 +53,7 @@ expect("metrics.cradle_across", 1e-9 + start_noise * math.sqrt(kn / (2000 * 0.1)
 local heap = {}
 for i = 1, 6 do
   local name = "heap" .. i
-  local at, turn = { 0.12 * (i % 2), 0.05 * (i % 3), 0.1 + 0.16 * i }, { 0.3 * i, 0.2 * (i % 4), 0.5 * i }
+  local at, turn = { 0.12 * (i % 2), 0.05 * (i % 3), 0.3 * i }, { 0.3 * i, 0.2 * (i % 4), 0.5 * i }
   for _, side in ipairs { 1, -1 } do
     box { name = name .. (side > 0 and "r" or "l"), size = { 0.3, 0.125, 0.1 }, center = { side * (10 + at[1]), 10 + at[2], at[3] }, free = true,
       initial = { rotation = { turn[1], side * turn[2], side * turn[3] } } }

@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <limits>
 #include <map>
-#include <tuple>
 #include <utility>
 
 #include "engine/base/units.h"
 #include "engine/geometry/mass.h"
 #include "engine/model/build/add_joints.h"
 #include "engine/model/build/check_joined.h"
+#include "engine/model/build/check_overlaps.h"
 #include "engine/model/build/interface.h"
 #include "engine/model/joint_packs.h"
 #include "engine/model/owner_schedule.h"
@@ -19,12 +19,6 @@ namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 std::size_t z(int i) { return std::size_t(i); }
-
-std::vector<InterfaceBlock> interface_blocks(const Scene& scene) {
-  std::vector<InterfaceBlock> blocks;
-  for (const Block& b : scene.blocks) blocks.push_back({b.parts, b.group, b.fixed, b.joint, b.widest_joint});
-  return blocks;
-}
 
 void add_blocks(const Scene& scene, Model& m) {
   for (const Block& block : scene.blocks) {
@@ -100,53 +94,6 @@ void index_wrench_rows(Model& m) {
     m.wrench_row_a[z(j)] = take(m.joint[z(j)].a);
     m.wrench_row_b[z(j)] = take(m.joint[z(j)].b);
   }
-}
-
-// Overlaps of blocks made by the same two script lines are one mistake. The message names the deepest and counts the others.
-struct Overlapping {
-  const Overlap* deepest = nullptr;
-  int others = 0;
-};
-
-// Number of overlapping pairs at which the search ends: a thousand, if overlaps are mistakes.
-std::size_t pairs_of(const Scene& scene) { return scene.analysis.overlap == "stress_free" ? 1000000 : 1000; }
-
-void check_overlaps(const Scene& scene, const std::vector<Overlap>& overlaps, bool cut, std::vector<std::string>& errors,
-                    std::vector<std::string>& warnings, std::vector<std::string>& notes) {
-  std::map<std::tuple<int, std::string, int, std::string, bool>, Overlapping> by_lines;
-  for (const Overlap& o : overlaps) {
-    const Block &a = scene.blocks[z(o.a)], &b = scene.blocks[z(o.b)];
-    if (a.fixed && b.fixed) continue;
-    const bool wrong = o.relative > most_overlap && scene.analysis.overlap != "stress_free";
-    Overlapping& group = by_lines[{b.place.line, b.place.file, a.place.line, a.place.file, wrong}];
-    if (group.deepest) ++group.others;
-    if (!group.deepest || o.relative > group.deepest->relative) group.deepest = &o;
-  }
-  std::vector<std::string> borne;  // overlaps that are accepted
-  int pairs = 0;
-  std::string worst;
-  double deepest = 0;  // relative to the smaller edge
-  for (const auto& [key, group] : by_lines) {
-    const Overlap& o = *group.deepest;
-    const Block &a = scene.blocks[z(o.a)], &b = scene.blocks[z(o.b)];
-    const std::string more =
-        group.others > 0 ? fmt::format(" ({}{} more pair(s) of these lines do so, too)", cut ? "at least " : "", group.others) : "";
-    const std::string pair = fmt::format("blocks '{}' ({}) and '{}' ({}) overlap by {:.3g} mm, {:.2g} of their smaller edge", a.name,
-                                         a.place.text(), b.name, b.place.text(), 1e3 * o.depth, o.relative);
-    const std::string what = pair + more;
-    if (std::get<bool>(key))
-      errors.push_back(fmt::format("{}: {}; at most {:g} is allowed: part them, or say analysis{{ overlap = \"stress_free\" }}",
-                                   b.place.text(), what, most_overlap));
-    if (std::get<bool>(key)) continue;
-    pairs += 1 + group.others;
-    if (o.relative > deepest) deepest = o.relative, worst = pair;
-    borne.push_back(what);
-  }
-  if (borne.empty()) return;
-  const std::string taken = "; taken as free of force at rest";
-  if (borne.size() == 1) return warnings.push_back(borne.front() + taken);
-  warnings.push_back(fmt::format("{} pairs of blocks overlap{}; the deepest: {}; log.txt of a run lists all", pairs, taken, worst));
-  notes.insert(notes.end(), borne.begin(), borne.end());
 }
 
 // Limits the number of contact points before memory is allocated.
@@ -236,7 +183,7 @@ Built build(const Scene& scene) {
   for (const JointRule& rule : scene.joint_rules) m.laws.push_back(rule.none ? PointLaw{} : compile(rule.law));
   add_blocks(scene, m);
   add_loads(scene, m);
-  Interfaces found = find_interfaces(interface_blocks(scene), scene.joint_rules, 0.05, pairs_of(scene));
+  Interfaces found = find_interfaces(interface_blocks(scene), scene.joint_rules, 0.05, most_overlaps(scene));
   std::vector<std::string> errors;
   check_blocks(scene, found, out, errors);
   if (!errors.empty()) throw Errors(errors);
@@ -254,17 +201,8 @@ Built build(const Scene& scene) {
     m.inverse_inertia.push_back(moving ? Mat3(m.inertia[z(b)].inverse()) : Mat3(Mat3::Zero()));
   }
   out.state = start(scene, m);
+  warn_of_pressed_starts(scene, m, out.state, out.warnings);
   return out;
-}
-
-std::vector<std::string> overlap_mistakes(const Scene& scene) {
-  for (const Block& block : scene.blocks)
-    for (const Polyhedron& part : block.parts)
-      if (!problem_of(part).empty()) return {};
-  std::vector<std::string> errors, warnings, notes;
-  const Interfaces found = find_interfaces(interface_blocks(scene), {}, 0.05, pairs_of(scene));
-  check_overlaps(scene, found.overlaps, found.cut, errors, warnings, notes);
-  return errors;
 }
 
 }  // namespace erbs

@@ -71,6 +71,21 @@ TEST_CASE("overlaps that are let be are one warning, their list is for the log",
   CHECK(built.notes.size() == 2);
 }
 
+TEST_CASE("blocks that their initial pose presses into others are named", "[model]") {
+  const auto told = [](const std::string& pose, const std::string& free = "true") {
+    return build(scene_with("box{ name = 'a', size = {.3, .2, 1}, at = {0, 0, 0}, free = " + free + ", initial = { " + pose + " } }\n"))
+        .warnings;
+  };
+  const auto said = told("rotation = {0, .1, 0}");  // about the centroid: the lower edge of a sinks in
+  CHECK(mentions(said, "scene.lua:5: blocks 'ground' (scene.lua:3) and 'a' (scene.lua:5) overlap by"));
+  CHECK(mentions(said, "initial.about"));
+  CHECK_FALSE(mentions(told("rotation = {0, .1, 0}, about = {.3, .1, 0}"), "initial"));
+  CHECK_FALSE(mentions(told("position = {0, 0, -1e-4}"), "initial"));
+  // in a joint a little more, as of bricks laid askew
+  CHECK_FALSE(mentions(told("position = {0, 0, -.9*mm}", "false"), "initial"));
+  CHECK(mentions(told("position = {0, 0, -2*mm}", "false"), "overlap by 2 mm"));
+}
+
 TEST_CASE("two joints of the same blocks have names of their own", "[model]") {
   const Model model =
       build(scene_with("block{ name = 'n', parts = { { vertices = { "
