@@ -40,13 +40,6 @@ start_noise = 0 -- noise in the initial state of every free block: erbs run --no
 
 ---@alias erbs.quantity "displacement"|"velocity"|"acceleration"|"rotation"|"spin"|"momentum"|"angular_momentum"|"reaction"|"reaction_moment"|"load"|"load_moment"|"opening"|"slip"|"normal_force"|"shear_force"|"joint_moment"|"damage"|"broken"|"normal_stress"|"shear_stress"|"crushing"|"ground_acceleration"|"ground_velocity"|"ground_displacement"|"gravity"|"contact_points"|"joints_broken"
 
----@class erbs.initial
----@field position? erbs.vec3 displacement from rest [m; -1e+06 to 1e+06; default { 0, 0, 0 }]
----@field rotation? erbs.vec3 rotation vector (axis times angle) from rest [rad; -100 to 100; default { 0, 0, 0 }]
----@field velocity? erbs.vec3 velocity of the centroid [m/s; -10000 to 10000; default { 0, 0, 0 }]
----@field spin? erbs.vec3 angular velocity, world axes [rad/s; -100000 to 100000; default { 0, 0, 0 }]
----@field about? erbs.vec3 point at rest the rotation is about (default the centroid) [m; -1e+06 to 1e+06]
-
 ---@class erbs.part
 ---@field vertices erbs.vec3[] corners [m; -1e+06 to 1e+06]
 ---@field faces? integer[][] loops of vertex numbers, counter-clockwise seen from outside (default: the hull)
@@ -97,7 +90,7 @@ function material(keys) end
 ---@field free? boolean allowed to have no joint, or no joined path to the ground [default false]
 ---@field material? string name of its material (default: the only one there is)
 ---@field rotation? erbs.vec3 rotation vector about the centroid [rad; -100 to 100; default { 0, 0, 0 }]
----@field initial? erbs.initial initial state: { position, rotation, velocity, spin, about }
+---@field initial? { position?: erbs.vec3, rotation?: erbs.vec3, velocity?: erbs.vec3, spin?: erbs.vec3, about?: erbs.vec3 } initial state
 
 ---A rectangular block.
 ---@param keys erbs.box_keys
@@ -115,7 +108,7 @@ function box(keys) end
 ---@field free? boolean allowed to have no joint, or no joined path to the ground [default false]
 ---@field material? string name of its material (default: the only one there is)
 ---@field rotation? erbs.vec3 rotation vector about the centroid [rad; -100 to 100; default { 0, 0, 0 }]
----@field initial? erbs.initial initial state: { position, rotation, velocity, spin, about }
+---@field initial? { position?: erbs.vec3, rotation?: erbs.vec3, velocity?: erbs.vec3, spin?: erbs.vec3, about?: erbs.vec3 } initial state
 
 ---A convex polyhedron, or several convex parts that are one rigid block.
 ---@param keys erbs.block_keys
@@ -133,7 +126,7 @@ function block(keys) end
 ---@field free? boolean allowed to have no joint, or no joined path to the ground [default false]
 ---@field material? string name of its material (default: the only one there is)
 ---@field rotation? erbs.vec3 rotation vector about the centroid [rad; -100 to 100; default { 0, 0, 0 }]
----@field initial? erbs.initial initial state: { position, rotation, velocity, spin, about }
+---@field initial? { position?: erbs.vec3, rotation?: erbs.vec3, velocity?: erbs.vec3, spin?: erbs.vec3, about?: erbs.vec3 } initial state
 
 ---A convex polygon extruded along an axis.
 ---@param keys erbs.prism_keys
@@ -150,7 +143,7 @@ function prism(keys) end
 ---@field free? boolean allowed to have no joint, or no joined path to the ground [default false]
 ---@field material? string name of its material (default: the only one there is)
 ---@field rotation? erbs.vec3 rotation vector about the centroid [rad; -100 to 100; default { 0, 0, 0 }]
----@field initial? erbs.initial initial state: { position, rotation, velocity, spin, about }
+---@field initial? { position?: erbs.vec3, rotation?: erbs.vec3, velocity?: erbs.vec3, spin?: erbs.vec3, about?: erbs.vec3 } initial state
 
 ---A block from a file (OBJ, STL, PLY, glTF); each mesh in it is one convex part.
 ---@param keys erbs.mesh_keys
@@ -999,7 +992,7 @@ function arcade(keys) end
 ---@field hollow? number height of the feet over that of the block [0 to 0.5; default 0.001]
 ---@field material? string material of the block; default: the only one there is
 ---@field free? boolean allowed to have no joint: its feet are contacts from the start [default false]
----@field initial? table initial state as in block{}: { position, rotation, velocity, spin, about }
+---@field initial? table initial state, as in block{}
 
 ---A block that stands on small feet along its lower edges instead of its whole face, like test blocks with a slightly hollow base. An impact then acts at its edges, as Housner assumes.
 ---@param keys erbs.footed_block_keys

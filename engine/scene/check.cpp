@@ -2,6 +2,7 @@
 #include <cctype>
 #include <cmath>
 #include <map>
+#include <numbers>
 #include <set>
 #include <unordered_map>
 
@@ -150,11 +151,22 @@ const Block* named(Report& report, const Index& index, const std::string& name, 
   return nullptr;
 }
 
+// More than a turn is an angle in degrees, taken for radians.
+void check_tilt(Report& report, const Load& load, double duration) {
+  constexpr int samples = 1000;
+  double most = 0;
+  for (int i = 0; i <= samples; ++i) most = std::max(most, std::fabs(value(load.wave, duration * i / samples)));
+  if (const double turns = most / (2 * std::numbers::pi); turns > 1)
+    report.say(load.place, "tilt: its wave reaches {:.4g} rad, {:.3g} turns; angles are in radians: {:.4g} degrees are {:.4g} * deg", most,
+               turns, most, most);
+}
+
 void check_loads(Report& report, const Scene& scene, const Index& index) {
   using Kind = Load::Kind;
   for (const Load& load : scene.loads) {
     if (!(std::abs(load.direction.norm() - 1) < 1e-6))
       report.say(load.place, "load \"{}\": its direction has no length; give a vector", load.name);
+    if (load.kind == Kind::tilt) check_tilt(report, load, scene.analysis.duration);
     if (load.kind == Kind::ground || load.kind == Kind::tilt) continue;
     const char* who = load.kind == Kind::force     ? "force"
                       : load.kind == Kind::moment  ? "moment"

@@ -190,7 +190,6 @@ std::string editor_type(const Key& key) {
                                                               {"law", "erbs.law"},
                                                               {"wave", "erbs.wave|number|fun(t: number): number"},
                                                               {"function", "fun(): any"},
-                                                              {"initial", "erbs.initial"},
                                                               {"parts", "erbs.part[]"},
                                                               {"metric", "number|fun(run: erbs.run): number?"},
                                                               {"question", "fun(run: erbs.run): number|boolean?"},
@@ -305,8 +304,7 @@ std::string editor_file() {
   std::vector<std::string> quantities;
   for (const Quantity& quantity : recorder_quantities()) quantities.push_back(fmt::format("\"{}\"", quantity.name));
   text += fmt::format("---@alias erbs.quantity {}\n\n", fmt::join(quantities, "|"));
-  for (const auto& [name, keys] : {std::pair{"initial", keys_of<Initial>()},
-                                   {"part", part_keys()},
+  for (const auto& [name, keys] : {std::pair{"part", part_keys()},
                                    {"tolerance", tolerance_keys()},
                                    {"stored", stored_keys()},
                                    {"picture", keys_of<PictureExpectation>()}})

@@ -30,7 +30,7 @@ Keys placed_keys() {
   Keys keys = keys_of<Block>();
   keys.push_back({"material", "string", "", "name of its material (default: the only one there is)"});
   keys.push_back({"rotation", "vec3", "rad", "rotation vector about the centroid", -100, 100, false, "", "{ 0, 0, 0 }"});
-  keys.push_back({"initial", "initial", "", "initial state: { position, rotation, velocity, spin, about }"});
+  keys.push_back({"initial", "initial", "", "initial state", -unbounded, unbounded, false, "", "", initial_keys()});
   return keys;
 }
 

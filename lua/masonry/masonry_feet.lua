@@ -19,7 +19,7 @@ masonry_functions[#masonry_functions + 1] = {
     { name = "hollow", type = "number", above = 0, high = 0.5, default = 0.001, help = "height of the feet over that of the block" },
     { name = "material", type = "string", help = "material of the block; default: the only one there is" },
     { name = "free", type = "boolean", default = false, help = "allowed to have no joint: its feet are contacts from the start" },
-    { name = "initial", type = "table", help = "initial state as in block{}: { position, rotation, velocity, spin, about }" },
+    { name = "initial", type = "table", help = "initial state, as in block{}" },
   },
 }
 local keys = masonry_functions[#masonry_functions].keys
