@@ -587,7 +587,7 @@ function spectrum(keys) end
 ---@field quantity erbs.quantity quantity to write
 ---@field axis? "x"|"y"|"z"|"xy"|"xz"|"yz"|"xyz" components to write [default xyz]
 ---@field frame? "rel"|"abs" relative to the ground, or absolute [default rel]
----@field point? erbs.vec3 material point at rest, instead of the centroid [m; -1e+06 to 1e+06; default { 0, 0, 0 }]
+---@field point? erbs.vec3 material point at rest (default the centroid) [m; -1e+06 to 1e+06]
 ---@field block? string|string[] name of the block
 ---@field blocks? string|string[] names of several blocks
 ---@field group? string all blocks of a group

@@ -285,6 +285,8 @@ void Run::step_on() {
   // A run that was killed after its last step, or is resumed twice, is where it should stop.
   if (run_.state.time.step > 0 && options_.until && run_.state.time.t - run_.state.time.last_dt >= *options_.until) {
     out_.metrics.status = "stopped";
+    if (const double t = run_.state.time.t; t > *options_.until + 2 * run_.state.time.dt)
+      out_.warnings.push_back(fmt::format("--until {:g}: the run was at {:g} s already, nothing was simulated", *options_.until, t));
     return;
   }
   while (true) {

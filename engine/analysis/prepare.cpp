@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 
+#include "engine/analysis/settlement.h"
 #include "engine/base/random.h"
 #include "engine/base/units.h"
 #include "engine/contact/overlap/shape.h"
@@ -133,6 +134,23 @@ void hold_use_limit(const Scene& scene, const Prepared& p) {
           use.place);
 }
 
+// A run that a record has ended before, or that begins after it, tells nothing about the structure.
+void warn_of_still_ground(const Scene& scene, Prepared& p) {
+  constexpr double every = 1e-3;  // s
+  for (const Load& load : scene.loads) {
+    if (load.kind != Load::Kind::ground) continue;
+    const double duration = scene.analysis.duration;
+    bool moves = false;
+    const int samples = int(std::min(duration / every, 1e6)) + 100;
+    for (int i = 0; i <= samples && !moves; ++i) moves = value(load.wave, duration * i / samples) != 0;
+    if (!moves)
+      p.warnings.push_back(
+          fmt::format("{}: this ground_motion is zero from 0 to {:g} s: does its record end before the run begins, or is a "
+                      "peak or amplitude 0?",
+                      load.place.text(), duration));
+  }
+}
+
 bool starts_loaded(const Model& m) { return m.gravity.norm() > 0 || !m.force_loads.empty(); }
 
 // Refuses initial poses that the equilibrium of joined blocks would undo.
@@ -182,22 +200,6 @@ void check_shapes(const Scene& scene, const Model& m) {
 
 }  // namespace
 
-// Settlement of n courses of mass m on springs k: n (n + 1) / 2 m g / k. The block bound of the time step gives k / m = 2 / dt^2.
-double settlement_of(const Model& m, double block_bound) {
-  const double g = m.gravity.norm();
-  if (!std::isfinite(block_bound)) block_bound = debris_bound(m);
-  if (!(g > 0) || !std::isfinite(block_bound)) return 0;
-  const Vec3 up = -m.gravity / g;
-  double low = 1e300, high = -1e300, edges = 0, blocks = 0;
-  for (int b = 0; b < m.nblock; ++b) {
-    if (m.kind[z(b)] != Kind::moving) continue;
-    const double at = up.dot(m.rest[z(b)]), edge = m.smallest_edge[z(b)];
-    low = std::min(low, at - edge / 2), high = std::max(high, at + edge / 2), edges += edge, ++blocks;
-  }
-  const double courses = blocks > 0 ? std::max(1.0, (high - low) * blocks / edges) : 1;
-  return 0.5 * courses * (courses + 1) * g * block_bound * block_bound / 2;
-}
-
 Prepared prepare(const Scene& scene, bool allow_unstable) {
   Built built = build(scene);
   Prepared p{std::move(built.model), std::move(built.state), {}, {}, {}, {}, 0, {}, std::move(built.warnings), std::move(built.notes)};
@@ -205,10 +207,12 @@ Prepared prepare(const Scene& scene, bool allow_unstable) {
   check_shapes(scene, p.model);
   find_islands(p.model, p.state);
   refuse_lost_poses(scene, p);
+  if (!scene.push.quasi_static()) warn_of_still_ground(scene, p);
   update_all_references(p.model, p.state);
   p.bounds = step_bounds(p.model, p.state);
   p.range.critical = p.bounds.cracked;
-  p.model.settlement = settlement_of(p.model, p.bounds.block);
+  const double of_blocks = std::isfinite(p.bounds.block) ? p.bounds.block : debris_bound(p.model);
+  if (p.model.gravity.norm() > 0 && std::isfinite(of_blocks)) p.model.settlement = settlement_of(p.model, p.state, of_blocks);
   choose_dt(scene, p, allow_unstable);
   if (!allow_unstable) hold_use_limit(scene, p);
   return p;

@@ -238,7 +238,7 @@ struct Recorder {
         {"quantity", &Recorder::quantity, "", "quantity to write", 0, 0, true},
         {"axis", &Recorder::axis, "", "components to write", 0, 0, false, "x|y|z|xy|xz|yz|xyz"},
         {"frame", &Recorder::frame, "", "relative to the ground, or absolute", 0, 0, false, "rel|abs"},
-        {"point", &Recorder::point, "m", "material point at rest, instead of the centroid", -1e6, 1e6},
+        {"point", &Recorder::point, "m", "material point at rest (default the centroid)", -1e6, 1e6},
     };
   }
 };

@@ -324,6 +324,7 @@ int complete(Script& script, const std::string& path, const std::string& directo
     if (command.output.force) words.push_back("--force");
     if (command.output.quiet) words.push_back("--quiet");
     if (!command.figures) words.push_back("--no-figures");
+    if (command.threads > 0) words.insert(words.end(), {"--threads", std::to_string(command.threads)});
     const int drawn = run_renderer(words);
     if (code == exit_ok) code = drawn;
   } else if (status != "interrupted" && command.figures) {

@@ -190,7 +190,7 @@ std::vector<Family> families_of(const std::vector<CaseResult>& results) {
     f.failed += !result.trouble.empty();
     for (const Verdict& v : result.verdicts) {
       f.failed += !v.passed;
-      if (v.passed && v.used >= f.worst) f.worst = v.used, f.worst_at = result.name + " " + v.key;
+      if (v.used >= f.worst) f.worst = v.used, f.worst_at = result.name + " " + v.key;
     }
   }
   std::erase_if(all, [](const Family& f) { return f.cases.empty(); });

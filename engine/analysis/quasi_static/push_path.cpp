@@ -69,6 +69,13 @@ bool MachinePath::passes_peak(double displaced) const {
   return rises < 0 && parts < most_parts && at_most > bracket * std::fabs(multiplier);
 }
 
+std::string MachinePath::leap_text(double displaced) const {
+  return fmt::format(
+      "the push leaps from {:.4g} to {:.4g} mm, no state between is known: the structure weakens faster than the loading machine "
+      "is stiff; say displacement_step = {:.1g} (m), the machine stiffens as it is shortened",
+      1e3 * displacement, 1e3 * displaced, 0.1 * step);
+}
+
 void MachinePath::refine() { parts *= parts_at_peak, left = 2 * parts_at_peak; }
 
 bool MachinePath::bracketed() const { return above && stiffness * (*above - extension) <= std::max(bracket * std::fabs(multiplier), 1e-9); }

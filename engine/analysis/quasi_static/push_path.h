@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <string>
 #include <type_traits>
 #include <vector>
 
@@ -36,12 +37,13 @@ struct LoadPath {
 };
 
 // Displacement control: the load grows with the extension of a loading machine, multiplier = stiffness (extension - displacement of the
-// monitored point). The machine is stiffer than the structure is weak past its peak, so that each extension has one state of equilibrium;
-// all other freedoms are free. It is no stiffer than the intact structure: where it pushes one block and looks at another, a stiff machine
-// would drive waves between the two. The displacement itself follows within a step. Until the peak is passed, a step in which the curve
-// bends down is repeated in eight parts, and one of these in eight again where it falls, as after a brittle crack, while the curve might
-// have risen by more than the bracket before. A part of the structure that the monitored point has no share in may come apart all the same:
-// the interval to the first extension without equilibrium is halved until the multiplier there is known as narrowly as asked.
+// monitored point). The machine is stiffer than a rigid block on its edge is weak, so that each of its extensions has one state of
+// equilibrium; beds that soften may be weaker still, and a leap over their states is told (`leaps`). All other freedoms are free. It is no
+// stiffer than the intact structure: where it pushes one block and looks at another, a stiff machine would drive waves between the two. The
+// displacement itself follows within a step. Until the peak is passed, a step in which the curve bends down is repeated in eight parts, and
+// one of these in eight again where it falls, as after a brittle crack, while the curve might have risen by more than the bracket before. A
+// part of the structure that the monitored point has no share in may come apart all the same: the interval to the first extension without
+// equilibrium is halved until the multiplier there is known as narrowly as asked.
 struct MachinePath {
   double end = 0, step = 0;     // m
   double stiffness = 0;         // 1/m
@@ -61,6 +63,11 @@ struct MachinePath {
   double next() const;  // the last step ends where a curve that goes on with its slope reaches the end
   double load(double extended, double displaced) const { return stiffness * (extended - displaced); }
   bool passes_peak(double displaced) const;  // within this step, which then is repeated in parts
+  // Further than the machine moves by itself: past its last state the structure weakens faster than the machine is stiff, and no state
+  // between is known.
+  bool leaps(double displaced) const { return displaced - displacement > most_leap * step; }
+  std::string leap_text(double displaced) const;
+  static constexpr double most_leap = 3;  // steps
   void refine();
   void found(double displaced);
   void failed() { above = next(); }

@@ -233,8 +233,10 @@ void PushRun::control_on() {
       machine.refine();
       continue;
     } else {
+      const double displaced = relaxation_->monitor().along(run_.state.pose);
+      if (machine.leaps(displaced)) out_.warnings.push_back(machine.leap_text(displaced)), writer_->log("warning: " + out_.warnings.back());
       so_far_.multiplier = relaxation_->loads().multiplier();
-      machine.found(relaxation_->monitor().along(run_.state.pose));
+      machine.found(displaced);
     }
     save_when_due();
   }

@@ -251,9 +251,9 @@ std::array<double, 2> Relaxation::mean_forces(const Solver& solver) {
   unbalanced_.resize(z(model_.nblock));
   for (int b = 0; b < model_.nblock; ++b) {
     if (model_.kind[z(b)] != Kind::moving) continue;
-    const Vec3 load = loads_.weight(b) + now.load_wrench[z(b)].head<3>(), all = load + now.block_wrench[z(b)].head<3>();
+    const Vec3 weight = loads_.weight(b), load = weight + now.load_wrench[z(b)].head<3>(), all = load + now.block_wrench[z(b)].head<3>();
     unbalanced += all.norm();
-    applied += load.norm();
+    applied += std::max(load.norm(), weight.norm());  // a push against gravity may leave no load
     unbalanced_[z(b)] = inertia_ ? all + inertia_->force(b) : all;
   }
   return {unbalanced, applied};

@@ -49,6 +49,14 @@ double value_at(const std::vector<double>& X, const std::vector<double>& Y, doub
   return Y[i - 1] + (x - X[i - 1]) / (X[i] - X[i - 1]) * (Y[i] - Y[i - 1]);
 }
 
+// A push by displacement may leap over what a structure does as it weakens (`MachinePath::leaps`): no line across is a state.
+void refuse_leap(const std::vector<double>& X, double x) {
+  const std::size_t i = std::size_t(std::upper_bound(X.begin() + 1, X.end() - 1, x) - X.begin());
+  if (i > 1 && X[i] - X[i - 1] > x)
+    throw Error(fmt::format("its target of {:.3g} mm lies between states at {:.3g} and {:.3g} mm, far from either; push with shorter steps",
+                            1e3 * x, 1e3 * X[i - 1], 1e3 * X[i]));
+}
+
 // `mass`: of the oscillator; `divisor`: V_b over its acceleration (both kg).
 PerformancePoint point_of(const BaseShearCurve& curve, const std::vector<double>& D, const Participation& nodes, double mass,
                           double divisor, const PerformanceDemand& demand) {
@@ -72,6 +80,7 @@ PerformancePoint point_of(const BaseShearCurve& curve, const std::vector<double>
   const double u = std::min(p.displacement, curve.displacement.back());
   p.multiplier = value_at(curve.displacement, curve.multiplier, u);
   p.shear = value_at(curve.displacement, curve.shear, u);
+  refuse_leap(curve.displacement, u);
   p.time = value_at(curve.displacement, curve.time, u);
   std::size_t nearest = 0;
   for (std::size_t i = 1; i < curve.displacement.size(); ++i)

@@ -35,9 +35,11 @@ void check_one(const Recorder& r, const std::set<std::string>& blocks, std::vect
     say(fmt::format("there is no quantity \"{}\"{}; allowed: {}", r.quantity,
                     nearest(r.quantity, known).empty() ? "" : did_you_mean(r.quantity, known), fmt::join(known, ", ")));
   else if (needs_blocks(r.quantity) && r.blocks.empty()) say(fmt::format("{} of which block? Give block, blocks or group", r.quantity));
+  std::set<std::string> listed;
   for (const auto* list : {&r.blocks, &r.others})
     for (const std::string& block : *list)
-      if (!blocks.contains(block))
+      if (!listed.insert(block).second) say(fmt::format("block \"{}\" is listed twice, and would count twice; leave one out", block));
+      else if (!blocks.contains(block))
         say(fmt::format("there is no block \"{}\"{}", block, did_you_mean(block, std::vector<std::string>(blocks.begin(), blocks.end()))));
   if (r.axis.empty() || r.axis.find_first_not_of("xyz") != std::string::npos)
     say(fmt::format("axis = \"{}\"; it takes letters of \"xyz\"", r.axis));

@@ -66,7 +66,7 @@ double extent(const Model& m, const std::vector<int>& blocks, const Vec3& along)
 
 // Moved joints by the direction of their normal: bed joints lie level, head joints stand.
 struct Cracks {
-  int beds = 0, heads = 0, slides = 0, hinges = 0;
+  int beds = 0, heads = 0, slides = 0, hinges = 0, parts = 0;
   // Courses that slide on each other, the upper ones further, look like one body that turns; no joint of it opens.
   bool only_slide() const { return slides > 0 && hinges == 0 && slides == beds + heads; }
 };
@@ -75,7 +75,7 @@ Cracks cracks_of(const Model& m, const Mechanism& joints, const Vec3& up) {
   for (const MovedJoint& moved : joints.moved) {
     const double level = std::fabs(m.joint[z(moved.joint)].type->frame.col(2).dot(up));
     (level > 0.7 ? out.beds : out.heads) += 1;
-    (moved.kind == Movement::slide ? out.slides : out.hinges) += moved.kind != Movement::part;
+    (moved.kind == Movement::slide ? out.slides : moved.kind == Movement::part ? out.parts : out.hinges) += 1;
   }
   return out;
 }
@@ -170,7 +170,9 @@ NamedMechanism name_mechanism(const Model& m, const BlockMotions& motions, const
   const RigidMotion body = rigid_motion(m, motions, blocks);
   const Cracks cracks = cracks_of(m, joints, up);
   const bool stepped = cracks.beds > 1 && cracks.heads > 1;
-  if (body.residual < as_one && (body.turning < without_turn || cracks.only_slide())) {
+  if (cracks.parts > 0 && cracks.hinges + cracks.slides == 0) {
+    out.name = "parting";
+  } else if (body.residual < as_one && (body.turning < without_turn || cracks.only_slide())) {
     out.name = sinks(m, motions, blocks, up) ? "crushing" : "sliding";
   } else if (body.residual < as_one) {
     const Vec3 across = up.cross(push);
@@ -182,8 +184,9 @@ NamedMechanism name_mechanism(const Model& m, const BlockMotions& motions, const
   } else {
     out.name = "hinges";
   }
-  out.text = fmt::format("{} of {:.0f} % of the mass: {} bed and {} head joints move, {} of them as hinges and {} by sliding", out.name,
-                         100 * out.moving_share, cracks.beds, cracks.heads, cracks.hinges, cracks.slides);
+  out.text = fmt::format("{} of {:.0f} % of the mass: {} bed and {} head joints move, {} of them as hinges and {} by sliding{}", out.name,
+                         100 * out.moving_share, cracks.beds, cracks.heads, cracks.hinges, cracks.slides,
+                         cracks.parts > 0 ? fmt::format(", {} part", cracks.parts) : "");
   return out;
 }
 

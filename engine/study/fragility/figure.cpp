@@ -1,6 +1,7 @@
 // Figures of a fragility: the probability of collapse over the intensity with its band, and the curves of incremental runs with fractiles.
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 
 #include "engine/record/plot/figure.h"
 #include "engine/record/plot/unit.h"
@@ -66,20 +67,36 @@ std::vector<Fragility>::const_iterator best_of(const std::vector<Fragility>& fou
   return best != found.end() ? best : std::find_if(found.begin(), found.end(), [&](const Fragility& f) { return f.group == group; });
 }
 
+// Lines of a sentence that fit into a panel.
+std::vector<std::string> folded(const std::string& text) {
+  constexpr std::size_t widest = 72;
+  std::vector<std::string> lines(1);
+  std::istringstream words(text);
+  for (std::string word; words >> word;) {
+    if (!lines.back().empty() && lines.back().size() + 1 + word.size() > widest) lines.emplace_back();
+    lines.back() += (lines.back().empty() ? "" : " ") + word;
+  }
+  return lines;
+}
+
 void draw_probability(const Sweep& sweep, const std::vector<Group>& groups, const std::vector<Fragility>& found,
                       const std::string& ending) {
   plot::Figure figure = sheet(sweep, "collapse, with 95 % confidence");
   plot::Panel panel = panel_of();
   const ShownIntensity shown = shown_intensity(sweep);
   const double top = 1.05 * highest(groups);
+  double height = 0.95;  // of the next line of words
   for (std::size_t g = 0; g < std::min(groups.size(), most_groups); ++g) {
     const auto one = best_of(found, groups[g].name);
     if (one != found.end() && one->fit.end == FitEnd::fitted) add_fit(figure, panel, *one, colors[g], top, shown);
     // Intensities that a bisection chose are no sample.
     if (!sweep.plan.bisect) add_fractions(figure, panel, groups[g], colors[g], g == 0, shown.factor);
     if (one != found.end() && !one->words.empty())
-      panel.labels.push_back({one->words, fmt::format("graph 0.03, graph {}", 0.95 - 0.06 * double(g)),
-                              fmt::format("left font ',11' tc rgb '{}' noenhanced", colors[g])});
+      for (const std::string& line : folded(one->words)) {
+        panel.labels.push_back(
+            {line, fmt::format("graph 0.03, graph {:.3f}", height), fmt::format("left font ',11' tc rgb '{}' noenhanced", colors[g])});
+        height -= 0.06;
+      }
   }
   panel.x = {shown.label(), fmt::format("[0:{}]", shown.factor * top), "", "", "noenhanced"};
   panel.y = {"probability of collapse", "[-0.02:1.02]"};

@@ -117,8 +117,8 @@ Fit fit_fragility(const std::vector<Interval>& observations) {
   return fit;
 }
 
-std::string words(const Fit& fit, const std::string& unit) {
-  const auto im = [&](double x) { return fmt::format("{:.4g}{}{}", x, unit.empty() ? "" : " ", unit); };
+std::string words(const Fit& fit, const std::string& unit, double factor) {
+  const auto im = [&](double x) { return fmt::format("{:.4g}{}{}", factor * x, unit.empty() ? "" : " ", unit); };
   switch (fit.end) {
     case FitEnd::fitted:
       return "";

@@ -40,7 +40,8 @@ struct Fit {
 // information, normal in ln(theta) and ln(beta).
 Fit fit_fragility(const std::vector<Interval>& observations);
 
-std::string words(const Fit& fit, const std::string& unit);  // what a fit that has not ended well means, and what to do; "" for a good one
+// What a fit that has not ended well means, and what to do; "" for a good one. `factor`: from SI to `unit`.
+std::string words(const Fit& fit, const std::string& unit, double factor = 1);
 
 double normal_cdf(double x);
 

@@ -19,9 +19,9 @@ std::string to_text(FitEnd end) {
   return names[std::size_t(end)];
 }
 
-Fragility fragility_of(const Group& group, const std::string& method, const std::string& im) {
+Fragility fragility_of(const Group& group, const std::string& method, const ShownIntensity& im) {
   Fragility out{group.name, method, fit_fragility(method == "runs" ? group.single_runs() : group.capacities()), {}};
-  out.words = words(out.fit, im);
+  out.words = words(out.fit, im.unit, im.factor);
   const auto say = [&](const std::string& what) { out.words += (out.words.empty() ? "" : "; ") + what; };
   if (group.left_out > 0) say(fmt::format("{} runs without an answer are left out", group.left_out));
   if (method == "runs" && group.incremental()) say("runs of one case are not independent, so that the bands are too narrow");
@@ -104,11 +104,12 @@ std::string unit_of_im(const Sweep& sweep) {
 
 std::vector<Fragility> write_fragility(const Sweep& sweep, const std::vector<Group>& groups) {
   const std::string im = unit_of_im(sweep);
+  const ShownIntensity shown = shown_intensity(sweep);
   std::vector<Fragility> out;
   std::vector<std::vector<std::string>> rows;
   for (const Group& group : groups) {
-    if (group.incremental()) out.push_back(fragility_of(group, "capacities", ""));
-    if (!sweep.plan.bisect) out.push_back(fragility_of(group, "runs", ""));  // a bisection chooses its runs by their answers
+    if (group.incremental()) out.push_back(fragility_of(group, "capacities", shown));
+    if (!sweep.plan.bisect) out.push_back(fragility_of(group, "runs", shown));  // a bisection chooses its runs by their answers
   }
   for (const Fragility& one : out) rows.push_back(row_of(one));
   write_table(sweep.directory + "/fragility.csv",
