@@ -1,5 +1,6 @@
 // The order in which a push visits its loads: which multiplier comes next, and what is known of the capacity.
 #pragma once
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -65,9 +66,9 @@ struct MachinePath {
   bool passes_peak(double displaced) const;  // within this step, which then is repeated in parts
   // Further than the machine moves by itself: past its last state the structure weakens faster than the machine is stiff, and no state
   // between is known.
-  bool leaps(double displaced) const { return displaced - displacement > most_leap * step; }
+  bool leaps(double displaced) const { return displaced - displacement > std::max(most_leap * step, least_leap * end); }
   std::string leap_text(double displaced) const;
-  static constexpr double most_leap = 3;  // steps
+  static constexpr double most_leap = 3, least_leap = 0.05;  // steps; of the displacement asked for
   void refine();
   void found(double displaced);
   void failed() { above = next(); }

@@ -1,6 +1,7 @@
 #include <catch2/catch.hpp>
 
 #include "tests/support/small_wall.h"
+#include "tests/unit/lua/load.h"
 
 using namespace erbs;
 using namespace erbs::analysis;
@@ -149,4 +150,35 @@ TEST_CASE("a limit of use is held: a coarser step or fewer points are refused wi
   CHECK_NOTHROW(prepare(scene, false));
   scene.use_limit.points = 1000;
   CHECK_THROWS_WITH(prepare(scene, false), Catch::Contains("good from 1000 on"));
+}
+
+TEST_CASE("a structure settles by its own pile, whatever hangs in the air or stands beside", "[analysis]") {
+  const auto settlement = [](const std::string& more) {
+    Script script(quiet());
+    const Scene scene = script.load_text(
+        "material{ name = 'brick', density = 1800, kn = 1e10, ks = 4e9 }\nanalysis{ duration = 1 }\nground{ size = 40 }\n"
+        "joint{ law = dry{ kn = 1e10, mu = .6 } }\n"
+        "for k = 0, 3 do box{ group = 'pier', size = {.3, .2, .1}, at = {0, 0, .1 * k} } end\n" +
+            more,
+        "scene.lua");
+    return prepare(scene, false).model.settlement;
+  };
+  const double alone = settlement("");
+  REQUIRE(alone > 0);
+  const auto brick = [](double at) { return fmt::format("box{{ size = {{.3, .2, .1}}, at = {{5, 0, {}}}, free = true }}\n", at); };
+  CHECK(settlement(brick(8)) == alone);
+  std::string stack, apart;  // of loose bricks that lie on each other, and that hang above each other
+  for (int k = 0; k < 12; ++k) stack += brick(1 + 0.1 * k), apart += brick(1 + 0.15 * k);
+  CHECK(settlement(stack) == Approx(alone * 12 * 13 / (4 * 5)).epsilon(1e-6));
+  CHECK(settlement(apart) == alone);
+}
+
+TEST_CASE("a ground that stays still is told", "[analysis]") {
+  const auto told = [](const std::string& wave) {
+    return mentions(prepare(test::small_wall("analysis{duration=1} ground_motion{ wave = " + wave + ", direction = 'x' }"), false).warnings,
+                    "this ground_motion is zero from 0 to 1 s");
+  };
+  CHECK(told("sine{ amplitude = 0, frequency = 2 }"));
+  CHECK(told("sine{ amplitude = 1, frequency = 2, start = 3 }"));
+  CHECK_FALSE(told("sine{ amplitude = 1, frequency = 1000 }"));
 }

@@ -25,6 +25,7 @@ box{ name = "floor", size = {6, 6, .5}, at = {-3, -3, -.5}, fixed = true }
 struct PushOutcome {
   Metrics metrics;
   std::string curve;
+  std::vector<std::string> warnings;
 };
 
 inline PushOutcome push(const std::string& text, const std::string& dir, int threads = 1, Existing existing = Existing::refuse,
@@ -41,7 +42,7 @@ inline PushOutcome push(const std::string& text, const std::string& dir, int thr
   };
   if (!copy_to.empty()) options.checkpoint_every = 0;
   const analysis::RunOutcome outcome = analysis::run_push(std::move(scene), text, options);
-  return {outcome.metrics, slurp(dir + "/curve.csv")};
+  return {outcome.metrics, slurp(dir + "/curve.csv"), outcome.warnings};
 }
 
 }  // namespace erbs::test

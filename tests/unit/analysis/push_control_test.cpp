@@ -37,6 +37,31 @@ TEST_CASE("what the machine does not hold falls at the capacity all the same", "
   }
 }
 
+TEST_CASE("a push that leaps over the states of a softening bed says so, and where shorter steps follow them", "[push]") {
+  const auto leaps = [](const std::string& steps) {
+    const test::Scratch dir("push_leap");
+    const auto outcome = push(stone +
+                                  "box{ name = 'b', size = {.9, .9, .2}, at = {-.45, -.45, 0} }"
+                                  "joint{ law = mortar{ kn = 1e11, ks = 4e10, mu = .6, ft = .03*MPa, c = .02*MPa, Gf1 = 50, Gf2 = 200 } } "
+                                  "analysis{ kind = 'pushover', limit = 'never', control = 'displacement', " +
+                                  steps + " }",
+                              dir.path);
+    return lua::mentions(outcome.warnings, "the push leaps from");
+  };
+  CHECK(leaps("displacement = 20*mm"));
+  CHECK_FALSE(leaps("displacement = .5*mm, displacement_step = 2e-6"));
+}
+
+TEST_CASE("a push against gravity passes the load that lifts the weight", "[push]") {
+  const test::Scratch dir("push_up");
+  const auto outcome = push(stone +
+                                "box{ name = 'b', size = {.3, .2, .1}, at = {0, 0, 0} }"
+                                "joint{ law = mortar{ kn = 1e10, ks = 4e9, mu = .6, ft = .01*MPa, c = .1*MPa } } "
+                                "analysis{ kind = 'pushover', limit = 'never', direction = 'z', step = .25, up_to = 20 }",
+                            dir.path);
+  CHECK(outcome.metrics.capacity->peak.multiplier == Approx(1 + 0.01e6 / (2000 * 0.1 * standard_g)).epsilon(0.01));
+}
+
 TEST_CASE("control by displacement slides a block at its friction, however stiff its bed and whatever pushes", "[push]") {
   const auto [kn, ks] = GENERATE(std::pair(1e10, 1e9), std::pair(1e8, 1e9), std::pair(1e9, 1e6));
   const std::string pattern = GENERATE("", "pattern = { { block = 'b', force = { 0, 1000, 0 } } }, ");

@@ -140,6 +140,7 @@ TEST_CASE("limit cases are told and give no numbers that look like a fit", "[fra
   };
   check(fit_of({}), FitEnd::empty, "no run");
   check(fit_of({{1, infinite}, {3, infinite}}), FitEnd::none, "none of 2 collapses up to 3 m/s2: the median lies above");
+  CHECK_THAT(words(fit_of({{1, infinite}, {3, infinite}}), "g", 0.1), Catch::Contains("up to 0.3 g:"));
   check(fit_of({{0, 2}, {0, 1}}), FitEnd::all, "from 1 m/s2 on: the median lies below");
   check(fit_of({{1, 2}, {1.2, infinite}, {0, 1.5}}), FitEnd::separated, "up to 1.2 m/s2 and all collapse from 1.5 m/s2");
   check(fit_of({{1, 2}, {1, 2}, {1, 2}}), FitEnd::separated, "too small to be seen");

@@ -68,6 +68,8 @@ TEST_CASE("every signal that asks a run to end leaves a checkpoint, and it goes 
   }
   Bench bench;
   REQUIRE(bench.run(sliding, {"-q", "--no-figures", "--until", "0.1"}) == 3);
+  REQUIRE(bench.run(sliding, {"-q", "--no-figures", "--resume", "--until", "0.05"}) == 3);
+  CHECK(contains(bench.said, "the run was at 0.1"));
   REQUIRE(bench.run(sliding, {"-q", "--no-figures", "--resume"}) == 0);
   CHECK(hash_in(bench.out()) == hash_in(whole.out()));
   for (const char* file : {"/histories.csv", "/energy.csv", "/events.csv"})

@@ -95,6 +95,7 @@ TEST_CASE("what a scene says wrong is one message with its place and remedy", "[
       {"analysis{ duration = math.huge }", {at, "duration is infinite (1/0?); allowed is 1e-09 to 1e+06 s"}},
       {"analysis{ duration = 1, dt = 0.1 }", {at, "analysis: dt = 0.1 s", "times the limit", "take at most", "unstable = true"}},
       {"recorder{ name = 'r', quantity = 'displacement', block = 'b11' }", {at, "there is no block \"b11\"; did you mean \"b1\"?"}},
+      {"recorder{ name = 'r', quantity = 'load', blocks = { 'b1', 'b2', 'b1' } }", {at, "block \"b1\" is listed twice"}},
       {"recorder{ name = 'r', quantity = 'displacment', block = 'b1' }", {at, "did you mean \"displacement\"?; allowed: displacement, "}},
       {"tilt{ wave = 30, axis = 'y' }", {at, "tilt: its wave reaches 30 rad, 4.77 turns", "30 * deg"}},
       {"tilt{ wave = function(t) return 900 * t end, axis = 'y' }", {at, "turns; angles are in radians"}},
