@@ -61,6 +61,8 @@ const Keys& stored_keys();     // of expect_stored(key, { ... })
 using Body = int (*)(lua_State*, Context&);
 void push_guarded(lua_State* lua, Body body, const void* what = nullptr);
 
+// Of record{} and ground_records{}: peak or scale; a peak of 0 is no motion, where one left out is as recorded.
+void check_scale(Arguments& arguments, Record& wave);
 // Calls the function that lies below its `arguments` on the stack, under the memory cap. Throws Error with the script's message.
 void call_script(lua_State* lua, Context& context, int arguments, int results);
 

@@ -76,7 +76,7 @@ int ground_records(Call& call) {
   arguments.read(files);
   for (const auto& field : Record::fields())
     if (field.name != "file") std::visit([&](auto member) { arguments.read(std::string(field.name), common.*member); }, field.member);
-  if (arguments.has("peak") && arguments.has("scale")) arguments.mistake("\"peak\" and \"scale\" exclude each other; keep one");
+  check_scale(arguments, common);
   std::array<Record, 3> wanted{common, common, common};
   const std::string* names[] = {&files.x, &files.y, &files.z};
   Components motion;

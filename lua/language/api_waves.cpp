@@ -22,7 +22,7 @@ void finish(Call&, Arguments& arguments, Table& wave) {
 }
 
 void finish(Call& call, Arguments& arguments, Record& wave) {
-  if (arguments.has("peak") && arguments.has("scale")) arguments.mistake("\"peak\" and \"scale\" exclude each other; keep one");
+  check_scale(arguments, wave);
   if (wave.file.empty()) {
     if (arguments.has("file")) arguments.mistake("file = \"\" names no file; give one");
     wave.acceleration = make_polyline({0, 1}, {0, 0});
@@ -106,6 +106,11 @@ void add_waves(std::vector<Function>& functions, const std::variant<W...>*) {
 }
 
 }  // namespace
+
+void check_scale(Arguments& arguments, Record& wave) {
+  if (arguments.has("peak") && arguments.has("scale")) arguments.mistake("\"peak\" and \"scale\" exclude each other; keep one");
+  if (arguments.has("peak") && wave.peak == 0) wave.scale = 0;
+}
 
 void note_record(Context& context, const Record& record, const Place& place) {
   if (record.note.empty()) return;

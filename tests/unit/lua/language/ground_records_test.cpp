@@ -57,6 +57,15 @@ TEST_CASE("mistakes in the components name the line and the remedy", "[lua][reco
   CHECK(mentions(files.mistakes("ground_records{ x = 'x.txt', unit = 'g', low = 5, high = 60 }\n"), "half the sampling rate"));
 }
 
+TEST_CASE("a peak of zero is no motion, not the motion as recorded", "[lua][record]") {
+  const Files files;
+  const Scene one = files.load("ground_motion{ wave = record{ file = 'x.txt', unit = 'm/s2', peak = 0 } }\n"),
+              all = files.load("ground_records{ x = 'x.txt', y = 'y.txt', unit = 'm/s2', peak = 0 }\n");
+  REQUIRE(all.loads.size() == 2);
+  for (const Wave& wave : {one.loads[0].wave, all.loads[0].wave, all.loads[1].wave}) CHECK(value(wave, 0.01) == 0);
+  CHECK(value(files.load("ground_motion{ wave = record{ file = 'x.txt', unit = 'm/s2' } }\n").loads[0].wave, 0.01) != 0);
+}
+
 TEST_CASE("check, log and manifest are told what was done to a record", "[lua][record]") {
   const Files files;
   const Scene scene =
