@@ -163,6 +163,9 @@ void check_tilt(Report& report, const Load& load, double duration) {
 
 void check_loads(Report& report, const Scene& scene, const Index& index) {
   using Kind = Load::Kind;
+  std::set<std::string> driven;
+  for (const Load& load : scene.loads)
+    if (load.kind == Kind::motion || load.kind == Kind::turning) driven.insert(load.block);
   for (const Load& load : scene.loads) {
     if (!(std::abs(load.direction.norm() - 1) < 1e-6))
       report.say(load.place, "load \"{}\": its direction has no length; give a vector", load.name);
@@ -175,6 +178,9 @@ void check_loads(Report& report, const Scene& scene, const Index& index) {
     const Block* block = named(report, index, load.block, load.place, who);
     if (block && block->fixed && load.kind != Kind::motion && load.kind != Kind::turning)
       report.say(load.place, "{}: block \"{}\" is fixed and feels none; name a free block", who, load.block);
+    if ((load.kind == Kind::force || load.kind == Kind::moment) && driven.contains(load.block))
+      report.say(load.place, "{}: block \"{}\" is driven by motion{{}} or turning{{}} and moves as they say; leave the {} out", who,
+                 load.block, who);
     if (!inside(load.point, -1e6, 1e6)) report.say(load.place, "{}: its point is not a finite place; give numbers", who);
   }
 }

@@ -147,7 +147,8 @@ TEST_CASE("waves are values, can be called, and drive loads", "[lua]") {
       "ground_motion{ wave = half_sine{ amplitude = 1, frequency = 2 }, direction = {3,0,4} }\n"
       "tilt{ wave = table_wave{ times = {0, 10}, values = {0, 20*deg}, hold = true }, axis = 'y' }\n"
       "moment{ block = 'b', wave = pulse{ amplitude = 5, start = 1, duration = 2 }, direction = 'z' }\n"
-      "motion{ block = 'b', wave = full_sine{ amplitude = 1e-3, frequency = 3 } }\n"
+      "box{ name = 'table', size = {1,1,1}, at = {5,0,0}, material = 'brick', free = true }\n"
+      "motion{ block = 'table', wave = full_sine{ amplitude = 1e-3, frequency = 3 } }\n"
       "force{ block = 'b', wave = function(x) return 2 * w(x) + x end, direction = 'z', sample = 10*ms }");
   CHECK(value(scene.loads.at(0).wave, 0) == Approx(2));
   CHECK(near(scene.loads.at(0).direction, {0, 1, 0}));

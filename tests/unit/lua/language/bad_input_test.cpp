@@ -99,6 +99,7 @@ TEST_CASE("what a scene says wrong is one message with its place and remedy", "[
       {"recorder{ name = 'r', quantity = 'displacment', block = 'b1' }", {at, "did you mean \"displacement\"?; allowed: displacement, "}},
       {"tilt{ wave = 30, axis = 'y' }", {at, "tilt: its wave reaches 30 rad, 4.77 turns", "30 * deg"}},
       {"tilt{ wave = function(t) return 900 * t end, axis = 'y' }", {at, "turns; angles are in radians"}},
+      {"motion{ block = 'b1', wave = 0 } force{ block = 'b1', wave = 1 }", {at, "force: block \"b1\" is driven by motion{}"}},
       {"force{ block = 'b11', wave = 1 }", {at, "force: there is no block \"b11\"; did you mean \"b1\"?"}},
       {"force{ block = 'b1', wave = 0/0 }", {at, "wave is not a number (0/0?); allowed is any finite number in N"}},
       {"expect('metrics.top', 3, { rel = .1 })", {at, "there is no metric \"top\""}},
