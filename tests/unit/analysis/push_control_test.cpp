@@ -60,6 +60,7 @@ TEST_CASE("a push against gravity passes the load that lifts the weight", "[push
                                 "analysis{ kind = 'pushover', limit = 'never', direction = 'z', step = .25, up_to = 20 }",
                             dir.path);
   CHECK(outcome.metrics.capacity->peak.multiplier == Approx(1 + 0.01e6 / (2000 * 0.1 * standard_g)).epsilon(0.01));
+  CHECK(outcome.metrics.capacity->mechanism == "parting");
 }
 
 TEST_CASE("control by displacement slides a block at its friction, however stiff its bed and whatever pushes", "[push]") {

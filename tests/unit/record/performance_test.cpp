@@ -215,6 +215,17 @@ TEST_CASE("a demand beyond the curve is a verdict", "[performance]") {
   CHECK(!performance_figure(p, en_b(5), "beyond").empty());
 }
 
+TEST_CASE("a target where a push has leapt over all states is refused", "[performance]") {
+  const double mass = 1000, T = 0.8;
+  const double yield = spectral_acceleration(en_b(2), T) / 2.5, at_yield = yield * std::pow(T / (2 * pi), 2);
+  Structure s = structure({mass}, {1}, yield * mass, at_yield, 5 * at_yield);  // target: 2.5 at_yield
+  CHECK(performance_of(s.curve, s.shape, demand_of(2)).n2.within_curve);
+  std::vector<double>* const rows[] = {&s.curve.displacement, &s.curve.shear, &s.curve.multiplier, &s.curve.time};
+  for (std::vector<double>* row : rows) row->erase(row->begin() + 9, row->begin() + 39);  // from at_yield to nearly the end
+  s.curve.peak = int(s.curve.displacement.size()) - 1;
+  CHECK_THROWS_WITH(performance_of(s.curve, s.shape, demand_of(2)), Catch::Contains("far from either; push with shorter steps"));
+}
+
 TEST_CASE("iteration draws the bilinear curve up to the target", "[performance]") {
   // Stiff at first, then soft up to a peak far away: the curve up to the peak would give too long a period.
   Structure s = structure({1000}, {1}, 1, 1, 0.2);
