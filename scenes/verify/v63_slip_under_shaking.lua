@@ -36,5 +36,5 @@ end
 metric("slip_over_paper", "", function(run)
   return -(along[1] * run.last "block_ux_rel_m" + along[2] * run.last "block_uy_rel_m") / paper
 end)
-expect("metrics.slip_over_paper", 1, { abs = 0.06, source = "Newmark 1965; what trembles a little slips a little less" })
+expect("metrics.slip_over_paper", 1, { abs = 0.06, source = "Newmark 1965; the bed is let down by its loan, and trembles as it lands (1.02 at most over the family)" })
 expect("energy.residual_relative", 1e-3, { below = true, source = "gate" })
