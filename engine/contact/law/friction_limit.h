@@ -7,6 +7,14 @@
 
 namespace erbs::ERBS_TARGET {
 
+// Compressive force of the patch (N), with that of the impact dashpot: friction of a blow follows both. Where a patch opens so fast that
+// its dashpot takes all the pressure, what is left is round-off.
+template <class T>
+ERBS_INLINE T pressing_force(const PairPackFor<T>& w) {
+  const T size = load<T>(w.size), sum = size + load<T>(w.damping[0]);
+  return load<T>(w.p[p_kn]) * select(sum > 1e-12 * size, sum, T(0));
+}
+
 // In N; sets `held`. Interlock acts where faces lie flat on each other, not at edges and corners: with interlock there, bodies of a heap
 // tremble for ever.
 template <class T>
@@ -14,7 +22,7 @@ ERBS_INLINE T friction_limit(PairPackFor<T>& w, const PairSettings& set, Vec3<T>
   const MaskFor<T> flat =
       load<T>(w.area) * (load<T>(w.r[b_inertia]) + load<T>(w.o[b_inertia])) > set.flat_face * (load<T>(w.r[b_mass]) + load<T>(w.o[b_mass]));
   const MaskFor<T> slow = dot(across, across) < T(set.interlock.slow);
-  const T pressed = load<T>(w.p[p_kn]) * load<T>(w.size), before = load<T>(w.p[p_mean_normal_force]);
+  const T pressed = pressing_force<T>(w), before = load<T>(w.p[p_mean_normal_force]);
   T mean = before;
   const T interlocked = interlocked_stress(set.interlock, mean, load<T>(w.p[p_lent]), T(0), pressed, slow),
           held = select(flat, interlocked, pressed);
@@ -26,7 +34,7 @@ ERBS_INLINE T friction_limit(PairPackFor<T>& w, const PairSettings& set, Vec3<T>
 // What the pair has lent after this step, in which its springs took no more than the limit.
 template <class T>
 ERBS_INLINE void lend(PairPackFor<T>& w, const PairSettings& set) {
-  const T lent = load<T>(w.p[p_lent]), pressed = load<T>(w.p[p_kn]) * load<T>(w.size), held = load<T>(w.held);
+  const T lent = load<T>(w.p[p_lent]), pressed = pressing_force<T>(w), held = load<T>(w.held);
   if (!any((lent > 0) | (held > pressed))) return;
   const Vec3<T> t = load3(w.springs);
   const T about = (load<T>(w.torsion) + dot(load3(w.lever), t)) / nonzero(load<T>(w.radius));
