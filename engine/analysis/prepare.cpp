@@ -5,7 +5,7 @@
 #include <cmath>
 #include <optional>
 
-#include "engine/analysis/settlement.h"
+#include "engine/analysis/columns.h"
 #include "engine/base/random.h"
 #include "engine/base/units.h"
 #include "engine/contact/overlap/shape.h"
@@ -21,14 +21,15 @@ std::size_t z(int i) { return std::size_t(i); }
 
 // Time-step bound for blocks that meet only in contact: the block on the contact spring of one face, sqrt(2 m / K) as for joints. A factor
 // 4 on K covers rocking: 1 + 3 for a thin brick on its face.
+double debris_bound(const Model& m, int b) {
+  if (m.kind[z(b)] != Kind::moving) return std::numeric_limits<double>::infinity();
+  const double volume = m.mass[z(b)] / m.materials[z(m.material[z(b)])].density;
+  const double k = m.materials[z(m.material[z(b)])].kn * volume / m.smallest_edge[z(b)];
+  return std::sqrt(2 * m.mass[z(b)] / (4 * k));
+}
 double debris_bound(const Model& m) {
   double bound = std::numeric_limits<double>::infinity();
-  for (int b = 0; b < m.nblock; ++b) {
-    if (m.kind[z(b)] != Kind::moving) continue;
-    const double volume = m.mass[z(b)] / m.materials[z(m.material[z(b)])].density;
-    const double k = m.materials[z(m.material[z(b)])].kn * volume / m.smallest_edge[z(b)];
-    bound = std::min(bound, std::sqrt(2 * m.mass[z(b)] / (4 * k)));
-  }
+  for (int b = 0; b < m.nblock; ++b) bound = std::min(bound, debris_bound(m, b));
   return bound;
 }
 
@@ -211,8 +212,10 @@ Prepared prepare(const Scene& scene, bool allow_unstable) {
   update_all_references(p.model, p.state);
   p.bounds = step_bounds(p.model, p.state);
   p.range.critical = p.bounds.cracked;
-  const double of_blocks = std::isfinite(p.bounds.block) ? p.bounds.block : debris_bound(p.model);
-  if (p.model.gravity.norm() > 0 && std::isfinite(of_blocks)) p.model.settlement = settlement_of(p.model, p.state, of_blocks);
+  std::vector<double> bounds = p.bounds.of_block;
+  for (int b = 0; b < p.model.nblock; ++b)
+    if (!std::isfinite(bounds[z(b)])) bounds[z(b)] = debris_bound(p.model, b);
+  p.model.hop = hops_of(p.model, p.state, bounds);
   choose_dt(scene, p, allow_unstable);
   if (!allow_unstable) hold_use_limit(scene, p);
   return p;

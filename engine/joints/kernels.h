@@ -69,7 +69,7 @@ struct CrackedShape {
   CrushedFace* const* crushed;
   const double* const* bearing;
   double event_budget;  // J, for `event_bound.h`; 0: no prediction
-  Interlock interlock;
+  InterlockStep interlock;
   bool rectangles;                               // the overlaps are rectangles along s and t about the centre
   int lines;                                     // > 0: so are the cells, in a grid of as many along s and t (strips.h)
   const CornerPack* line;                        // between these lines: at s, and at t [lines + 1]
@@ -80,6 +80,7 @@ struct alignas(64) CrackedPack {
   int a[pack_size], b[pack_size], wrench_row_a[pack_size], wrench_row_b[pack_size];
   double arm_a[3][pack_size], arm_b[3][pack_size];  // m, from the centroids to the joint, world, at rest
   double viscous[pack_size];                        // s, coefficient b of the dashpots; 0 in empty lanes
+  double hop_time[pack_size], hop_loan[pack_size];  // s, `Hop` (laws/interlock.h)
   double share_n[pack_size], share_s[pack_size];    // of the stiffness of the intact joint (fading.h)
   double gap[6][pack_size];                         // at the last step, like `resultant` and `stored`
   MeanSlipPack mean_slip;

@@ -263,25 +263,12 @@ void distribute_pressure(const Model& m, const Joint& joint, const CrushedFace* 
 
 }  // namespace
 
-Interlock interlock_now(const Model& m, const State& s) {
-  const double g = m.gravity.norm();
-  if (!(g > 0 && m.settlement > 0)) return {};
+InterlockStep interlock_step(const Model& m, const State& s) {
   const TimeStep& t = s.time;
   const bool levels = has_levels(t);
   const int macro_steps = std::max(1, interlock_every / t.substeps);  // between two updates, with levels
   const bool due = levels ? at_macro_step(t) && t.macro % macro_steps == 0 : t.step % interlock_every == 0;
-  const double way = interlock_speed * std::sqrt(g * m.settlement) * t.last_dt,
-               since = (levels ? macro_steps * t.last_substeps : interlock_every) * t.last_dt,
-               time = interlock_time * std::sqrt(m.settlement / g);
-  return {interlock_gap * m.settlement, way * way, due && since > 0 ? since / (since + time) : 0, t.last_dt,
-          interlock_loan * std::sqrt(m.settlement / g)};
-}
-
-Interlock contact_interlock(const Model& m, const State& s) {
-  const double g = m.gravity.norm(), d = m.settlement;
-  if (!(g > 0 && d > 0)) return {};
-  return {interlock_gap * d, interlock_speed * interlock_speed * g * d,
-          s.time.last_dt / (s.time.last_dt + interlock_time * std::sqrt(d / g)), s.time.last_dt, interlock_loan * std::sqrt(d / g)};
+  return {m.gravity.norm(), t.last_dt, t.last_dt, due ? (levels ? macro_steps * t.last_substeps : interlock_every) * t.last_dt : 0};
 }
 
 bool respond(const Model& m, int j, bool intact, const double* gap_before, const double* gap, JointPast past, double* resultant,

@@ -15,15 +15,14 @@ struct JointEnergy {
 // History of joint j.
 struct JointPast {
   JointPast(PointHistory* of_points, CrushedFace* of_face = nullptr) : point(of_points), crushed(of_face) {}
-  PointHistory* point;   // [points]
-  CrushedFace* crushed;  // null without a plateau in compression
-  Interlock interlock;   // default: no interlock
+  PointHistory* point;                  // [points]
+  CrushedFace* crushed;                 // null without a plateau in compression
+  scalar::Interlock<double> interlock;  // default: no interlock
   StiffnessShare share;
 };
 JointPast past_of(const Model& model, State& state, int j);
 
-Interlock interlock_now(const Model& model, const State& state);      // of the step that led to the present pose
-Interlock contact_interlock(const Model& model, const State& state);  // the same for contacts, updated in every step; `slow` in m2/s2
+InterlockStep interlock_step(const Model& model, const State& state);  // for joints: of the step that led to the present pose
 
 // The face of a joint with the normal stiffness kn (Pa/m), as its compression law needs it.
 CompressionFace compression_face(const Model& model, const Joint& joint, double kn);

@@ -8,16 +8,18 @@
 //
 // The remedy: asperities of real joints stay interlocked over such hops. Friction of a point therefore follows the mean of its pressure
 // over some hops, if that exceeds the current pressure. Two conditions limit this. The gap is at most a multiple of d, the settlement of
-// the structure under its own weight. The slip rate is at most a multiple of sqrt(g d). Such hops are so high and so fast. A joint that
-// slips faster feels the current pressure.
+// the column of blocks through the joint under its own weight. The slip rate is at most a multiple of sqrt(g d). Such hops are so high and
+// so fast. A joint that slips faster feels the current pressure.
 // Slip then dissipates at least mu times the mean pressure. Below the friction angle the slope supplies less, so the creep ends.
 //
 // What friction takes beyond the current pressure is lent: the impulse is kept, and while the pressure is above its mean, friction stays
 // at the mean until it is paid back. So over some hops friction is Coulomb's. The greater of mean and current pressure alone, without
 // paying back, would be more than either in the mean: a wall of undamped mortar on a cracked bed, whose pressure trembles by its own size,
-// stood under 1 g at mu = .6. No more is lent than the mean pressure gives in a few hops, so a bed that is unloaded for good lets go. The
-// mean starts from zero: a mean that starts with the blow of a landing face would lend a multiple of the weight.
-// All scales derive from d and g: the model has no length, time or speed of its own.
+// stood under 1 g at mu = .6. No more is lent than the mean pressure gives in a few hops, so a bed that is unloaded for good lets go, and
+// shaking that is slower than the hops moves it as Coulomb's law does. Low columns come to rest by their dashpots: they may lend the
+// less the fewer courses they have. The mean starts from zero: a mean that starts with the blow of a landing face would lend a multiple of
+// the weight.
+// All scales derive from d and g: the model has no length, time or speed of its own. sqrt(d / g) of a column, its time of a hop, says all.
 #pragma once
 
 namespace erbs {
@@ -25,16 +27,20 @@ namespace erbs {
 inline constexpr double interlock_gap = 100;    // times d: largest gap
 inline constexpr double interlock_time = 100;   // times sqrt(d / g): averaging time; the structure hops with a period of about 5
 inline constexpr double interlock_speed = 120;  // times sqrt(g d): largest slip rate
-inline constexpr double interlock_loan = 10;    // times sqrt(d / g): an impulse of at most the mean pressure over this time is lent
+inline constexpr double interlock_loan = 8;     // times sqrt(d / g), once for each course up to so many: the mean pressure is lent so long
 inline constexpr int interlock_every = 8;       // steps between updates of the mean pressure
 
-// The same limits in the units of a step.
-struct Interlock {
-  double gap = 0;   // m; 0: no interlock
-  double slow = 0;  // m2, square of the largest slip in a step
-  double rate = 0;  // share of the difference by which the mean is updated in this step; 0: no update
-  double dt = 0;    // s, since the last evaluation
-  double loan = 0;  // s, over which the mean pressure may be lent
+// Of the column of blocks through a joint or contact; 0: no interlock.
+struct Hop {
+  double time = 0, loan = 0;  // s, sqrt(d / g); over which the mean pressure may be lent
+};
+
+// What is common to all joints in a step; without gravity there is no interlock.
+struct InterlockStep {
+  double gravity = 0;    // m/s2
+  double slip_time = 0;  // s, over which slip is measured; 1 where it is a speed
+  double dt = 0;         // s, since the last evaluation
+  double since = 0;      // s, since the last update of the mean pressure; 0: no update in this step
 };
 
 }  // namespace erbs

@@ -65,18 +65,37 @@ ERBS_INLINE T share_within(InPlane<T> present, InPlane<T> drag, T limit, M past)
   return select(past, (sqrt(along * along + size * room) - along) / nonzero(size), T(1));
 }
 
+// The limits of interlock of a joint in a step.
+template <class T>
+struct Interlock {
+  T gap{}, slow{}, loan{}, rate{};  // m; square of the largest slip; s; share of the difference by which the mean is updated
+  double dt = 0;                    // s, since the last evaluation
+  bool updates = false;
+};
+template <class T>
+ERBS_INLINE Interlock<T> interlock_of(const InterlockStep& step, T hop_time, T hop_loan) {
+  const T way = interlock_speed * step.gravity * step.slip_time * hop_time;
+  const bool updates = step.since > 0;
+  return {interlock_gap * step.gravity * hop_time * hop_time,
+          way * way,
+          hop_loan,
+          updates ? step.since / (step.since + interlock_time * hop_time) : T(0),
+          step.dt,
+          updates};
+}
+
 // The pressure (Pa) that friction of a point follows (interlock.h): its momentary pressure `stress`, or the mean if that is higher, the
 // faces are `slow` and the gap (m) is small; less what is to be paid back of `lent` (Pa s) if it is lower. Updates the mean.
 template <class T, class M>
-ERBS_INLINE T interlocked_stress(const Interlock& lock, T& mean, T lent, T gap, T stress, M slow) {
-  if (lock.rate > 0) mean = mean + (stress - mean) * lock.rate;
+ERBS_INLINE T interlocked_stress(const Interlock<T>& lock, T& mean, T lent, T gap, T stress, M slow) {
+  if (lock.updates) mean = mean + (stress - mean) * lock.rate;
   const T held = select(lent > 0, max(mean, stress - lent * (lock.dt > 0 ? 1 / lock.dt : 0)), stress);
   return select(mean > stress, select((gap < lock.gap) & slow & (lent < lock.loan * mean), mean, stress), held);
 }
 
 // What is lent after this step, in which friction followed the pressure `held` and was that of the pressure `used` (Pa).
 template <class T>
-ERBS_INLINE T lent_after(const Interlock& lock, T lent, T stress, T held, T used) {
+ERBS_INLINE T lent_after(const Interlock<T>& lock, T lent, T stress, T held, T used) {
   return select((lent > 0) | (held > stress), max(lent + (used - stress) * lock.dt, 0), T(0));
 }
 
@@ -88,7 +107,7 @@ ERBS_INLINE T pressure_of_friction(T size, T strength, T friction, T weight) {
 
 // Whether a joint slides slowly: the change of its relative displacement over a step, rotation taken at `radius` (m).
 template <class T>
-ERBS_INLINE MaskFor<T> slides_slowly(const Interlock& lock, const T gap[6], const T before[6], T radius) {
+ERBS_INLINE MaskFor<T> slides_slowly(const Interlock<T>& lock, const T gap[6], const T before[6], T radius) {
   const T ds = gap[0] - before[0], dt = gap[1] - before[1], rotation = (gap[5] - before[5]) * radius;
   return ds * ds + dt * dt + rotation * rotation < lock.slow;
 }

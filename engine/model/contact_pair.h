@@ -16,6 +16,7 @@ struct PairLaw {
   double ks = 0;  // Pa/m
   double mu = 0;
   double restitution = 0;  // of an impact through the centre
+  Hop hop = {};            // laws/interlock.h
 };
 
 // Numerical settings of contact, the same for all pairs.
@@ -27,7 +28,7 @@ struct ContactSettings {
   double horizon = 0;                 // s, time before a predicted event can change a step (model/levels.h)
   double event_budget = 0;            // J, energy error allowed per impact (event_bound.h); 0: no limit
   double blow_share = 1e300;          // of the kinetic energy of a blow: the same (event_bound.h)
-  Interlock interlock;                // interlock.h, for contacts: m, m2/s2 and share per step
+  double gravity = 0;                 // m/s2, of interlock (laws/interlock.h); 0: none
 };
 
 // Force and moments on the two bodies of a pair, world axes, each moment about the body's own centroid.
@@ -123,6 +124,8 @@ void each(P& p, F&& f) {
   f("ks", p.ks);
   f("mu", p.mu);
   f("restitution", p.restitution);
+  f("hop_time", p.hop.time);
+  f("hop_loan", p.hop.loan);
 }
 template <class P, class F>
 requires std::is_same_v<std::remove_const_t<P>, ContactPair>

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/laws/interlock.h"
 #include "engine/laws/laws.h"
 #include "engine/model/joint_pack.h"
 #include "engine/model/owner_schedule.h"
@@ -117,7 +118,7 @@ struct Model {
   std::vector<Ground> grounds;
   std::vector<Tilt> tilts;
   Vec3 gravity = Vec3::Zero();  // m/s2
-  double settlement = 0;        // m, estimated settlement of the top under self-weight (laws/interlock.h)
+  std::vector<Hop> hop;         // of the column through each block (laws/interlock.h) [nblock]; empty: no interlock
   Damping damping;
   double local_damping = 0;  // share of the unbalanced force that brakes a block (Cundall 1987); for relaxations only
   // Of the weight of the lighter block: joined neighbours that meet along an edge are no contact before it could bear this.
@@ -151,5 +152,12 @@ struct Model {
     return block_name[std::size_t(one.a)] + " | " + block_name[std::size_t(one.b)] + (number > 1 ? " #" + std::to_string(number) : "");
   }
 };
+
+// Of a joint or a contact of two blocks: the longer column counts.
+inline Hop hop_between(const Model& model, int a, int b) {
+  if (model.hop.empty()) return {};
+  const Hop &of_a = model.hop[std::size_t(a)], &of_b = model.hop[std::size_t(b)];
+  return of_a.time > of_b.time ? of_a : of_b;
+}
 
 }  // namespace erbs

@@ -99,8 +99,8 @@ void Solver::prepare_step(const SamplePlan& plan) {
   has_contacts_ = contacts_.active();
   budget_ = together && has_levels(time) ? event_allowance(model_, state_) : event_budget(model_, state_);
   has_transitions_ = has_contacts_ || time.step == 0 || (debris && cracked && every(model_.release_every, time));
-  if (has_contacts_ && together) contacts_.prepare(budget_, contact_interlock(model_, state_));
-  else if (has_contacts_) contacts_.prepare_substep(contact_interlock(model_, state_));
+  if (has_contacts_ && together) contacts_.prepare(budget_);
+  else if (has_contacts_) contacts_.prepare_substep();
   if (has_contacts_ && contact_wrench_.empty()) {
     contact_wrench_.assign(constants_.size() * pack_size, 0.0);
     if (may_have_levels_) contact_kick_ = contact_wrench_;

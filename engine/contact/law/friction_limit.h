@@ -21,10 +21,11 @@ template <class T>
 ERBS_INLINE T friction_limit(PairPackFor<T>& w, const PairSettings& set, Vec3<T> across) {
   const MaskFor<T> flat =
       load<T>(w.area) * (load<T>(w.r[b_inertia]) + load<T>(w.o[b_inertia])) > set.flat_face * (load<T>(w.r[b_mass]) + load<T>(w.o[b_mass]));
-  const MaskFor<T> slow = dot(across, across) < T(set.interlock.slow);
+  const Interlock<T> lock = interlock_of<T>(set.interlock, load<T>(w.p[p_hop_time]), load<T>(w.p[p_hop_loan]));
+  const MaskFor<T> slow = dot(across, across) < lock.slow;
   const T pressed = pressing_force<T>(w), before = load<T>(w.p[p_mean_normal_force]);
   T mean = before;
-  const T interlocked = interlocked_stress(set.interlock, mean, load<T>(w.p[p_lent]), T(0), pressed, slow),
+  const T interlocked = interlocked_stress(lock, mean, load<T>(w.p[p_lent]), T(0), pressed, slow),
           held = select(flat, interlocked, pressed);
   store(w.p[p_mean_normal_force], select(flat, mean, before));
   store(w.held, held);
@@ -39,7 +40,8 @@ ERBS_INLINE void lend(PairPackFor<T>& w, const PairSettings& set) {
   const Vec3<T> t = load3(w.springs);
   const T about = (load<T>(w.torsion) + dot(load3(w.lever), t)) / nonzero(load<T>(w.radius));
   const T used = min(sqrt(dot(t, t) + about * about) / nonzero(load<T>(w.p[p_mu])), held);
-  store(w.p[p_lent], lent_after(set.interlock, lent, pressed, held, used));
+  store(w.p[p_lent],
+        lent_after(interlock_of<T>(set.interlock, load<T>(w.p[p_hop_time]), load<T>(w.p[p_hop_loan])), lent, pressed, held, used));
 }
 
 }  // namespace erbs::ERBS_TARGET

@@ -157,11 +157,13 @@ PairWrench to_world(const ContactPair& pair, const PairFrame& s, const Vec3& for
 }  // namespace
 
 PairSettings pair_settings(const ContactSettings& s, const PairInterval& interval) {
-  Interlock interlock = s.interlock;
-  interlock.dt = interval.since;
   return {interval.since,    interval.drift, interval.booked ? 1.0 : 0.0, s.memory,
-          s.reference_speed, s.settling,     s.settling_tangential,       interlock,
+          s.reference_speed, s.settling,     s.settling_tangential,       {s.gravity, 1, interval.since, interval.since},
           flat_face,         slender};
+}
+
+double interlocks_to(const ContactSettings& s, const ContactPair& pair) {
+  return interlock_gap * s.gravity * pair.law.hop.time * pair.law.hop.time;
 }
 
 double power(const PairWrench& w, const ContactBlock& a, const ContactBlock& b) { return power(w, b.v - a.v, a.w, b.w); }
@@ -208,7 +210,7 @@ bool pair_force(ContactPair& pair, const ContactShapes& shapes, const ContactBlo
   come_apart(pair, room.apart);
   impact_bound(pair, s, settings, room.apart, interval.horizon, result);
   if (room.apart >= 0) result.apart = room.apart;
-  if (room.apart > settings.interlock.gap) pair.mean_normal_force = 0;
+  if (room.apart > interlocks_to(settings, pair)) pair.mean_normal_force = 0;
   if (!pair.touching) return false;
   let_go(pair, a, b, interval, result);
   pair.rotation = s.pose.rotation;

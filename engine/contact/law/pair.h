@@ -67,6 +67,9 @@ double release_to_contact(ContactPair& pair, const ContactShapes& shapes, const 
 // Crossley 1975).
 double impact_factor(double restitution);
 
+// m, distance at which the faces of a pair interlock no more (laws/interlock.h).
+double interlocks_to(const ContactSettings& settings, const ContactPair& pair);
+
 PairSettings pair_settings(const ContactSettings& settings, const PairInterval& interval);
 
 // Power of a pair's wrench (W): at the velocities of `a` and `b`, or at the speed of b relative to a (m/s) and their spins (rad/s).

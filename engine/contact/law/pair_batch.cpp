@@ -10,8 +10,8 @@
 namespace erbs {
 namespace {
 
-constexpr int lift_row = 51;  // row of `ContactPair::lift`
-static_assert(offsetof(ContactPair, tangential) == 30 * sizeof(double) && offsetof(ContactPair, lift) == lift_row * sizeof(double));
+constexpr int lift_row = 53;  // row of `ContactPair::lift`
+static_assert(offsetof(ContactPair, tangential) == 32 * sizeof(double) && offsetof(ContactPair, lift) == lift_row * sizeof(double));
 static_assert(sizeof(ContactPair) >= 8 * pair_rows * sizeof(double));
 static_assert(sizeof(ContactBlock) == 8 * block_rows * sizeof(double));
 static_assert(offsetof(PairResult, elastic) == 8 * result_rows * sizeof(double));

@@ -41,8 +41,8 @@ struct PairSettings {
   double dt, drift;  // s, since the last evaluation; of the last drift, by half of which velocities lag behind poses
   double booked;     // 1: the work of the last wrenches after their kick is booked already, else 0
   double memory, reference_speed, settling, settling_tangential;  // as in ContactSettings
-  Interlock interlock;                                            // the same, over this interval
-  double flat_face, slender;                                      // `pair.h`
+  InterlockStep interlock;
+  double flat_face, slender;  // `pair.h`
 };
 
 // Eight blocks side by side as in State, and their rows as pairs read them.

@@ -24,6 +24,7 @@ struct Cracking {
   Pack rate, debonded_rate;       // of dashpots, b over the last step; the same of points without a bond
   Pack drag[6];                   // dashpots (viscous_response)
   Pack lift;                      // m, by asperities; set where the law has them
+  Interlock<Pack> lock;
 };
 
 // The gap at a point, m.
@@ -203,17 +204,17 @@ ERBS_INLINE Pack compress(const PointLaw& law, const CrackedShape& shape, Cracki
 }
 
 // `interlocked_stress()` of a point of the pack, with its mean pressure in memory.
-ERBS_INLINE Pack interlocked_stress(const CrackedShape& shape, SlipPack& slip, Pack gap, Pack stress, Mask slow) {
+ERBS_INLINE Pack interlocked_stress(const Interlock<Pack>& lock, SlipPack& slip, Pack gap, Pack stress, Mask slow) {
   Pack mean = load(slip.mean_pressure);
-  const Pack held = interlocked_stress(shape.interlock, mean, load(slip.lent), gap, stress, slow);
-  if (shape.interlock.rate > 0) store(slip.mean_pressure, mean);
+  const Pack held = interlocked_stress(lock, mean, load(slip.lent), gap, stress, slow);
+  if (lock.updates) store(slip.mean_pressure, mean);
   return held;
 }
-ERBS_INLINE void lend(const CrackedShape& shape, SlipPack& slip, Pack stress, Pack held, Pack used) {
-  store(slip.lent, lent_after(shape.interlock, load(slip.lent), stress, held, used));
+ERBS_INLINE void lend(const Interlock<Pack>& lock, SlipPack& slip, Pack stress, Pack held, Pack used) {
+  store(slip.lent, lent_after(lock, load(slip.lent), stress, held, used));
 }
 ERBS_INLINE Mask slides_slowly(const CrackedShape& shape, const Cracking& c) {
-  return slides_slowly(shape.interlock, c.gap, c.gap_before, load(shape.face->radius));
+  return slides_slowly(c.lock, c.gap, c.gap_before, load(shape.face->radius));
 }
 
 // Relative displacement now and one step ago, and an empty account. Asperities that lift the faces close the gap.
@@ -230,6 +231,7 @@ ERBS_INLINE void start(const PointLaw& law, const CrackedShape& shape, const Cra
     if (damped) c.drag[i] = Pack(0);
   }
   if constexpr (Face::lifts) c.gap[2] -= load(lane.own(shape.points)[Face::uplift]);
+  c.lock = interlock_of(shape.interlock, load(lane.hop_time), load(lane.hop_loan));
 }
 
 // Lifts the faces of a law with asperities by the slip of this step, which needs their force at the uplift so far.

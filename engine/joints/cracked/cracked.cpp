@@ -84,7 +84,7 @@ void Cracked::clear(Group& group, int l) {
   group.crushed[l] = nullptr;
   group.bearing[l] = nullptr;
   CrackedPack& lane = memory_of(group);
-  lane.viscous[l] = 0;
+  lane.viscous[l] = lane.hop_time[l] = lane.hop_loan[l] = 0;
   lane.share_n[l] = lane.share_s[l] = 1;
   for (int i = 0; i < 6; ++i) lane.gap[i][l] = lane.resultant[i][l] = lane.drag[i][l] = 0;
   lane.stored[l] = 0;
@@ -107,6 +107,8 @@ void Cracked::fill(Group& group, int l, int j) {
   CrackedPack& lane = memory_of(group);
   group.joint[l] = j;
   lane.viscous[l] = joint.viscous_cracked;
+  const Hop hop = hop_between(model_, joint.a, joint.b);
+  lane.hop_time[l] = hop.time, lane.hop_loan[l] = hop.loan;
   set_share(lane, l, j);
   group.used |= 1U << l;
   group.maybe_out_of_range = true;
@@ -287,7 +289,7 @@ void Cracked::forces(int first, int last, bool sample, double budget, JointSums&
   const bool damped = model_.dashpots_cracked && state_.time.last_dt > 0;
   const double per_step = damped ? 1 / state_.time.last_dt : 0;
   CrackedSums done{};
-  const Interlock interlock = interlock_now(model_, state_);
+  const InterlockStep interlock = interlock_step(model_, state_);
   for (int g = first; g < last; ++g) {
     Group& group = group_[z(g)];
     if (group.empty()) continue;
@@ -309,7 +311,7 @@ void Cracked::forces(int first, int last, bool sample, double budget, JointSums&
                              group.crushed,
                              group.bearing,
                              budget,
-                             law.interlock ? interlock : Interlock{},
+                             law.interlock ? interlock : InterlockStep{},
                              shapes.rectangles,
                              std::max(0, int(shapes.line.size()) - 1),
                              shapes.line.data()};

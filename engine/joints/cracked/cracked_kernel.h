@@ -174,7 +174,7 @@ template <bool damped, bool in_grid>
 ERBS_INLINE Pack point_response(const PointLaw& law, const CrackedShape& shape, SlipPack& p, BondPack& bonded, int i, Pack stress,
                                 Mask slow, GridTension& grid, Cracking& c) {
   const PointSample x{load(shape.point[i].s), load(shape.point[i].t), load(shape.point[i].weight), gap_of(shape.point[i], c.gap)};
-  const Pack held = interlocked_stress(shape, p, x.n, stress, slow), pressure = x.weight * held;
+  const Pack held = interlocked_stress(c.lock, p, x.n, stress, slow), pressure = x.weight * held;
   Bond<Pack> b{load(bonded.damage), load(bonded.secant), load(bonded.kappa)};
   const Mask holds = b.damage < 1;
   const bool bonds = any(holds);
@@ -196,7 +196,7 @@ ERBS_INLINE Pack point_response(const PointLaw& law, const CrackedShape& shape, 
   const Mask slides = square > cap * cap;
   if (any(slides)) slide(law, p, x, c, b, bonds, slides, sigma, pressure, sqrt(square), cap, gs, gt), ts = k * gs, tt = k * gt;
   if (any((held > stress) | (load(p.lent) > 0)))
-    lend(shape, p, stress, held,
+    lend(c.lock, p, stress, held,
          pressure_of_friction(sqrt(ts * ts + tt * tt), bond_shear(law, sigma, b.damage) * x.weight, friction_at(law, b.damage), x.weight));
   c.resultant[0] += ts;
   c.resultant[1] += tt;

@@ -118,8 +118,8 @@ ERBS_INLINE Pack friction_at_point(const PointPack& point, SlipPack& slip, Pack 
 }
 
 // Points of faces that are open, and were so before, follow the faces.
-ERBS_INLINE void follow_open_faces(const CrackedShape& shape, const PointPack& point, SlipPack& slip, const Cracking& c, Mask slow) {
-  if (shape.interlock.rate > 0) interlocked_stress(shape, slip, gap_of(point, c.gap), Pack(0), slow);
+ERBS_INLINE void follow_open_faces(const PointPack& point, SlipPack& slip, const Cracking& c, Mask slow) {
+  if (c.lock.updates) interlocked_stress(c.lock, slip, gap_of(point, c.gap), Pack(0), slow);
   store(slip.s, c.gap[0] - c.gap[5] * load(point.t));
   store(slip.t, c.gap[1] + c.gap[5] * load(point.s));
 }
@@ -133,10 +133,11 @@ ERBS_INLINE void friction_at_points(double mu, Pack scale, const Pack* depth, co
   const Mask slow = slides_slowly(shape, c);
   Pack lent{};
   for (int i = 0; i < shape.points; ++i) {
-    const Pack gap = gap_of(shape.point[i], c.gap), stress = scale * depth[i], held = interlocked_stress(shape, slip[i], gap, stress, slow);
+    const Pack gap = gap_of(shape.point[i], c.gap), stress = scale * depth[i],
+               held = interlocked_stress(c.lock, slip[i], gap, stress, slow);
     // no limit where all stick
     const Pack square = friction_at_point<damped>(shape.point[i], slip[i], depth[i], select(stick.mask, Pack(1e150), lets * held), c, sum);
-    if (any((held > stress) | (load(slip[i].lent) > 0))) lend(shape, slip[i], stress, held, sqrt(square) / nonzero(lets));
+    if (any((held > stress) | (load(slip[i].lent) > 0))) lend(c.lock, slip[i], stress, held, sqrt(square) / nonzero(lets));
     lent = max(lent, load(slip[i].lent));
   }
   store(mean_slip.lent, lent);
@@ -160,7 +161,7 @@ static inline void update_mean_pressure(const CrackedShape& shape, Pack force, S
   const Pack scale = force / nonzero(sum);
   for (int i = 0; i < shape.points; ++i) {
     const Pack gap = gap_of(shape.point[i], c.gap);
-    interlocked_stress(shape, slip[i], gap, scale * max(-gap, 0), slow);
+    interlocked_stress(c.lock, slip[i], gap, scale * max(-gap, 0), slow);
   }
 }
 
@@ -192,13 +193,13 @@ static bool friction_pack(const PointLaw& law, const CrackedShape& shape, Cracke
     add_compression<damped>(pressed, before<Face, damped>(law, shape, lane, c), c);
     c.resultant[0] = stick.s, c.resultant[1] = stick.t, c.resultant[5] = stick.rotation;
     c.stored += stick.stored;
-    if (shape.interlock.rate > 0) update_mean_pressure(shape, pressed.force, slip, c);
+    if (c.lock.updates) update_mean_pressure(shape, pressed.force, slip, c);
   } else if (crushes || any(pressed.force > 0) || any(load(lane.stored) > 0)) {
     const Pack scale = compress<Face, damped>(law, shape, c, pressed, before<Face, damped>(law, shape, lane, c), depth);
     friction_at_points<damped>(mu, scale, depth, shape, slip, mean_slip, stick, c);
   } else {
     const Mask slow = slides_slowly(shape, c);
-    for (int i = 0; i < shape.points; ++i) follow_open_faces(shape, shape.point[i], slip[i], c, slow);
+    for (int i = 0; i < shape.points; ++i) follow_open_faces(shape.point[i], slip[i], c, slow);
     store(mean_slip.outdated, Pack(1));
   }
   finish_step<Face, damped>(law, shape, c, lane, sums);

@@ -73,7 +73,9 @@ Mat3 ContactBodies::rotation_of(int b) const {
 }
 
 PairLaw ContactBodies::law(int a, int b) const {
-  return pair_law(model.materials[z(model.material[z(a)])], model.materials[z(model.material[z(b)])]);
+  PairLaw law = pair_law(model.materials[z(model.material[z(a)])], model.materials[z(model.material[z(b)])]);
+  law.hop = hop_between(model, a, b);
+  return law;
 }
 
 bool ContactBodies::were_joined(int a, int b) const {

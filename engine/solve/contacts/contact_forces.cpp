@@ -34,6 +34,7 @@ ContactForces::ContactForces(const Model& model, State& state, const ContactBodi
       thread_pairs_(z(threads)),
       room_(z(threads)) {
   settings_.blow_share = blow_share(model);
+  settings_.gravity = model.gravity.norm();
   first_pair_.back() = first_fast_.back() = std::numeric_limits<int>::max();
 }
 
@@ -50,23 +51,14 @@ void ContactForces::prepare() {
   if (std::exchange(changed_, false)) cache_.assign(state_.contacts.list.pair.size(), {});
 }
 
-void ContactForces::set(double budget, const Interlock& interlock) {
-  settings_.event_budget = budget, settings_.interlock = interlock;
+void ContactForces::set(double budget) {
+  settings_.event_budget = budget;
   settings_.horizon = has_levels(state_.time) ? 3 * macro_dt(state_.time) : 0;  // this macro step and the next, twice as long at most
 }
 
 PairInterval ContactForces::interval(bool slow) const {
   const TimeStep& time = state_.time;
   return {interval_before(time, slow), time.last_dt, has_levels(time) ? macro_dt(time) : time.last_dt, slow && time.last_substeps > 1};
-}
-
-// The mean pressure is updated over the interval of the pair.
-ContactSettings ContactForces::settings_of(bool slow) const {
-  ContactSettings settings = settings_;
-  double& rate = settings.interlock.rate;
-  const int steps = slow ? state_.time.last_substeps : 1;
-  if (steps > 1 && rate > 0) rate = steps * rate / (1 + (steps - 1) * rate);
-  return settings;
 }
 
 void ContactForces::book_after_kick(std::span<const int> live) {
@@ -121,19 +113,18 @@ bool ContactForces::evaluate_one(int i, bool sample, OverlapRoom& room, PairResu
   const MotionBounds::PairBound& known = motion_.pair(i);
   const ContactBlock &a = bodies_.block[z(known.a)], &b = bodies_.block[z(known.b)];
   const PairInterval interval = this->interval(slow(i));
-  const ContactSettings settings = settings_of(slow(i));
   PairCache& cache = cache_[z(i)];
   if (const double way = idle(i); way > 0) {
     motion_.note_separation(i, r.apart = way);
     return false;
   }
   const PairBodies& bodies = cache.bodies;
-  if (still_separated(cache.axis, pair, frame_of(bodies, a, b), settings, interval.horizon, r)) {
+  if (still_separated(cache.axis, pair, frame_of(bodies, a, b), settings_, interval.horizon, r)) {
     motion_.note_separation(i, r.apart);
-    if (r.apart > settings_.interlock.gap) pair.mean_normal_force = 0;
+    if (r.apart > interlocks_to(settings_, pair)) pair.mean_normal_force = 0;
     return false;
   }
-  const bool counts = pair_force(pair, bodies_.shapes, a, b, settings, interval, sample, room, r, contact_count(known.a, known.b));
+  const bool counts = pair_force(pair, bodies_.shapes, a, b, settings_, interval, sample, room, r, contact_count(known.a, known.b));
   cache.fits = fits_pack(pair, bodies);
   cache.axis = cached_axis(pair, *bodies.reference, *bodies.other);
   motion_.note_separation(i, counts ? 0 : r.apart);
@@ -155,7 +146,7 @@ void ContactForces::evaluate(int thread, std::span<const int> live, bool sample)
   Collected of_pace[2];  // fast and slow pairs: those of one kind have one interval
   const auto evaluate_batch = [&](bool slow) {
     Collected& w = of_pace[slow];
-    const unsigned left_out = pair_forces(w.task, w.count, settings_of(slow), interval(slow), sample, batch);
+    const unsigned left_out = pair_forces(w.task, w.count, settings_, interval(slow), sample, batch);
     for (int l = 0; l < w.count; ++l)
       if ((left_out >> l & 1u) != 0) evaluate_one(w.at[l], sample, room, *w.task[l].result);
     w.count = 0;

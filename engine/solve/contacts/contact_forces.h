@@ -33,7 +33,7 @@ class ContactForces {
   void list_pairs();                        // after the list of pairs has changed
   void mark_changed() { changed_ = true; }  // the laws of some pairs have changed
   void prepare();                           // before the forces of a step
-  void set(double budget, const Interlock& interlock);
+  void set(double budget);
   void share_fast(std::span<const int> fast);  // between the threads, for the steps within a macro step
   // Forces of this thread's share of the `live` pairs.
   void evaluate(int thread, std::span<const int> live, bool sample);
@@ -53,7 +53,6 @@ class ContactForces {
   static void note_cost(ThreadPairs& found, double seconds);
   double idle(int i);
   PairInterval interval(bool slow) const;
-  ContactSettings settings_of(bool slow) const;
   double contact_count(int a, int b) const;  // number of contacts for the dashpots of `pair_force()`
 
   struct PairCache {

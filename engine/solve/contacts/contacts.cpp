@@ -94,16 +94,16 @@ void Contacts::activate_loose_blocks() {
   list_involved();
 }
 
-void Contacts::prepare(double budget, const Interlock& interlock) {
-  forces_.set(budget, interlock);
+void Contacts::prepare(double budget) {
+  forces_.set(budget);
   const bool due = motion_.prepare(involved_, unsorted_);
   if (!state_.contacts.list.valid || due) update();
   if (unsorted_) sort();
   forces_.prepare();
 }
 
-void Contacts::prepare_substep(const Interlock& interlock) {
-  forces_.set(0, interlock);
+void Contacts::prepare_substep() {
+  forces_.set(0);
   if (unsorted_) {  // in a resumed run, or after a release at the start of this macro step
     motion_.place(involved_);
     sort();

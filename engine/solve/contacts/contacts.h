@@ -30,9 +30,9 @@ class Contacts {
   void activate_loose_blocks();
   // Before the forces of a step: the remaining poses, and every few steps the check whether a new search is necessary. `budget`: J, of
   // events (`event_bound.h`).
-  void prepare(double budget, const Interlock& interlock);
+  void prepare(double budget);
   // The same within a macro step (model/levels.h): the list of pairs stays.
-  void prepare_substep(const Interlock& interlock);
+  void prepare_substep();
   // Forces of this thread's pairs.
   void forces(int thread, bool sample) {
     forces_.evaluate(thread, at_macro_step(state_.time) ? sleep_.live() : fast_, sample);

@@ -143,7 +143,7 @@ Sparse stiffness(const Model& m, const State& s, const Freedom& f) {
 }
 
 StepBounds step_bounds(const Model& m, const State& s) {
-  StepBounds out{infinite, infinite, infinite, infinite, infinite, -1};
+  StepBounds out{infinite, infinite, infinite, infinite, infinite, -1, std::vector<double>(z(m.nblock), infinite)};
   const Freedom f = freedoms(m);
   const double viscous = greatest(m, &Joint::viscous_cracked);
   std::vector<Mat6> own(z(m.nblock), Mat6::Zero()), damping(viscous > 0 ? own.size() : 0, Mat6::Zero());
@@ -172,8 +172,8 @@ StepBounds step_bounds(const Model& m, const State& s) {
     const auto largest = [&](const Mat6& k) {
       return std::max(0.0, Eigen::SelfAdjointEigenSolver<Mat6>(Mat6(root * k * root)).eigenvalues()[5]);
     };
-    const double limit = longest_step(std::sqrt(2 / largest(own[z(b)])), viscous, 2, 1e-7,
-                                      [&](double dt) { return largest(own[z(b)] + 2 / dt * damping[z(b)]); });
+    const double free = out.of_block[z(b)] = std::sqrt(2 / largest(own[z(b)]));
+    const double limit = longest_step(free, viscous, 2, 1e-7, [&](double dt) { return largest(own[z(b)] + 2 / dt * damping[z(b)]); });
     if (!std::isfinite(limit)) continue;
     if (limit < out.block) out.block = limit, out.stiffest_block = b;
     // Gu and Miao, rule (3): T_i = 2 pi sqrt(m_i / k_i), neighbours fixed, in translation.

@@ -26,6 +26,7 @@ struct StepBounds {
   double element_period = 0;  // s, shortest 2 pi sqrt(m / k) of a block with fixed neighbours: rules (3), (4) of Gu and Miao
   double wave_passage = 0;    // s, least distance of joined centres / sqrt(E / rho): rule (5) of Gu and Miao
   int stiffest_block = -1;
+  std::vector<double> of_block;  // s, `block` without dashpots, of each block; infinite without joints [nblock]
 };
 StepBounds step_bounds(const Model& model, const State& state);
 

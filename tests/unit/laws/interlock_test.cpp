@@ -15,7 +15,7 @@ namespace {
 
 constexpr double dt = 1e-5, hop = 4e-3;  // s
 // Averaging over 20 hops, a loan of two.
-const Interlock lock{.gap = 1e-3, .slow = 1, .rate = dt / (20 * hop), .dt = dt, .loan = 2 * hop};
+const Interlock<double> lock{.gap = 1e-3, .slow = 1, .loan = 2 * hop, .rate = dt / (20 * hop), .dt = dt, .updates = true};
 
 // A point that slips all the time.
 struct Slipping {

@@ -60,7 +60,7 @@ TEST_CASE("once the stiff joint is gone the step grows to what debris bears", "[
   // m/s and restitutions of 0.2 to 1.
   CHECK(s.energy.residual_worst < 1.5e-2);
   CHECK(s.motion.v[2].norm() < 1e-6);
-  CHECK(s.pose.u[2].z() == Approx(-0.11).margin(1e-6));
+  CHECK(s.pose.u[2].z() == Approx(-0.0975).margin(1e-6));  // friction stops its foot as it lands, and it tips onto its side
 }
 
 // A plate of mass m pressed between the ground and a slab 25 times as heavy, k = kn A on either side: omega^2 = 2 k / m (1 + m / 2 M).
