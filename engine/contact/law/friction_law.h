@@ -129,7 +129,10 @@ static void trial_forces(PairPackFor<T>& w, const PairSettings& set) {
   // upper bound for any direction of slip
   const T inverse_mass =
       load<T>(w.r[b_mass]) + load<T>(w.o[b_mass]) + dot(centre, centre) * load<T>(w.r[b_inertia]) + dot(x, x) * load<T>(w.o[b_inertia]);
-  const T ct = select(inverse_mass > 0, 2 * set.settling_tangential * sqrt(kt / nonzero(inverse_mass)), T(0));
+  const T of_blow = load<T>(w.p[p_ks]) * load<T>(w.total) * load<T>(w.chi);
+  T ct = 2 * set.settling_tangential * sqrt(kt / nonzero(inverse_mass)) + of_blow;
+  if (set.dt > 0) ct = min(ct, 0.25 / (nonzero(inverse_mass) * set.dt));
+  ct = select(inverse_mass > 0, ct, T(0));
   const Vec3<T> angular = load3(w.angular), there = load3(w.linear) + cross(angular, x), across = there - dot(there, n) * n;
   const Vec3<T> pull = -(kt * load3(w.u1)), dashpots = -(ct * across);
   const T torsion = -kr * load<T>(w.psi1), dashpot_torsion = -ct * gyration * gyration * dot(angular, n);

@@ -138,7 +138,7 @@ void take_shear(ContactPair& pair, const PairFrame& s, const Patch& patch, const
   OnePair w;
   fill(w, pair, s, patch, saturated_contacts);
   w.size[0] = pressed / pair.law.kn;
-  set(w.damping, Vec3::Zero()), w.damping[3][0] = 0;
+  set(w.damping, Vec3::Zero()), w.damping[3][0] = w.chi[0] = 0;
   set(w.linear, Vec3::Zero()), set(w.angular, Vec3::Zero());
   limit_friction(w, PairSettings{}, false);
   const scalar::Springs<double> springs = scalar::springs_after<double>(w);
