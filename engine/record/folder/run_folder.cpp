@@ -4,6 +4,7 @@
 #include <sys/file.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <filesystem>
 #include <string_view>
@@ -15,21 +16,51 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Files and folders the programs write into a run folder. --force removes these only; notes of the user survive.
-constexpr std::string_view own_files[] = {
-    "scene.lua",  "manifest.json", "metrics.json",     "log.txt",           "energy.csv", "histories.csv", "events.csv",  "histories.svg",
-    "energy.svg", "motion.h5",     "motion.xdmf",      "checkpoint.bin",    "frames",     "report.html",   "results.csv", "accuracy.csv",
-    "modes.csv",  "studies",       "figures",          "expectations.json", "plot.svg",   "plot.png",      "pictures",    "curve.csv",
-    "curve.svg",  "shape.csv",     "performance.json", "performance.svg"};
-constexpr std::string_view own_endings[] = {".mp4", ".tmp", ".part"};
+// Files and folders the programs write into a run folder. --force removes these only; notes and films of the user survive.
+constexpr std::string_view own_files[] = {"scene.lua",     "manifest.json",  "metrics.json",      "log.txt",         "energy.csv",
+                                          "histories.csv", "events.csv",     "histories.svg",     "energy.svg",      "motion.h5",
+                                          "motion.xdmf",   "frames",         "report.html",       "results.csv",     "accuracy.csv",
+                                          "modes.csv",     "studies",        "figures",           "plot.svg",        "plot.png",
+                                          "pictures",      "curve.csv",      "curve.svg",         "shape.csv",       "twin",
+                                          "twin.log",      "checkpoint.bin", "expectations.json", "performance.svg", "performance.json"};
+constexpr std::string_view own_endings[] = {".tmp", ".part"};
+constexpr std::string_view films[] = {".mp4", ".webp"};                          // SCENE_camera.mp4
+constexpr std::string_view comparisons[] = {"compare.", "compare_", "frames."};  // beginnings of the names in compare/
 
-bool is_own(const fs::path& path) {
-  const std::string name = path.filename().string();
-  for (const auto own : own_files)
-    if (name == own) return true;
-  for (const auto ending : own_endings)
-    if (name.size() > ending.size() && name.ends_with(ending)) return true;
-  return false;
+bool ends_in(const std::string& name, std::string_view ending) { return name.size() > ending.size() && name.ends_with(ending); }
+
+bool is_own(const std::string& name, const std::string& scene) {
+  return std::ranges::count(own_files, name) > 0 || std::ranges::any_of(own_endings, [&](auto e) { return ends_in(name, e); }) ||
+         (name.starts_with(scene + "_") && std::ranges::any_of(films, [&](auto e) { return ends_in(name, e); }));
+}
+
+// Removes what `own` names in a folder, and then a folder that is left empty.
+template <class Own>
+void remove_from(const fs::path& folder, const Own& own) {
+  if (!fs::is_directory(fs::symlink_status(folder))) return;
+  for (const auto& entry : fs::directory_iterator(folder))
+    if (own(entry.path().filename().string())) fs::remove_all(entry.path());
+  std::error_code in_use;
+  fs::remove(folder, in_use);
+}
+
+// The manifest stays: it identifies the run folder until a new one is written.
+void remove_former_run(const std::string& dir, const std::string& scene) {
+  for (const auto& entry : fs::directory_iterator(dir))
+    if (const std::string name = entry.path().filename().string(); is_own(name, scene) && name != "manifest.json")
+      fs::remove_all(entry.path());
+  remove_from(fs::path(dir) / "compare", [](const std::string& name) {
+    return std::ranges::any_of(comparisons, [&](auto beginning) { return name.starts_with(beginning); });
+  });
+  remove_from(fs::path(dir) / "export",
+              [&](const std::string& name) { return name.starts_with(scene + ".") || name.starts_with(scene + "_"); });
+}
+
+// Under which name films and exports of the former run were written; that of the new run if its manifest cannot be read.
+std::string scene_of_films(const std::string& dir, const Manifest& manifest) {
+  try {
+    return file_stem(read_manifest(dir).scene_name);
+  } catch (const std::exception&) { return file_stem(manifest.scene_name); }
 }
 
 // The topmost folder of `path` that does not exist yet; empty if all exist. Removing it undoes the creation of all.
@@ -99,11 +130,7 @@ void create_run_folder(const std::string& dir, Existing existing, const std::str
   const fs::path missing = first_missing(dir);
   bool made = false;  // created by this call, so removed again if the rest fails
   try {
-    if (existing == Existing::force && missing.empty()) {
-      // The manifest is removed last: until then it identifies the run folder.
-      for (const auto& entry : fs::directory_iterator(dir))
-        if (is_own(entry.path()) && entry.path().filename() != "manifest.json") fs::remove_all(entry.path());
-    }
+    if (existing == Existing::force && missing.empty()) remove_former_run(dir, scene_of_films(dir, manifest));
     fs::path own = fs::absolute(dir).lexically_normal();
     if (!own.has_filename()) own = own.parent_path();  // for "out/"
     if (own.has_parent_path()) fs::create_directories(own.parent_path());

@@ -88,15 +88,35 @@ TEST_CASE("force empties a run folder of its own files only", "[record][run_fold
   const test::Scratch scratch("force");
   const std::string dir = scratch.path;
   make(dir, Existing::force);
-  for (const char* name : {"/metrics.json", "/motion.h5", "/house.mp4", "/notes.txt", "/checkpoint.bin"}) std::ofstream(dir + name) << "x";
+  for (const char* name : {"/metrics.json", "/motion.h5", "/notes.txt", "/checkpoint.bin"}) std::ofstream(dir + name) << "x";
   fs::create_directories(dir + "/frames");
   std::ofstream(dir + "/frames/0.png") << "x";
   make(dir, Existing::resume);
   CHECK(fs::exists(dir + "/metrics.json"));
   make(dir, Existing::force);
-  for (const char* name : {"/metrics.json", "/motion.h5", "/house.mp4", "/frames", "/checkpoint.bin"}) CHECK_FALSE(fs::exists(dir + name));
+  for (const char* name : {"/metrics.json", "/motion.h5", "/frames", "/checkpoint.bin"}) CHECK_FALSE(fs::exists(dir + name));
   CHECK(fs::exists(dir + "/notes.txt"));
   CHECK(is_run_folder(dir));
+}
+
+TEST_CASE("force removes films, comparisons and exports of the former run, and nothing of the user", "[record][run_folder]") {
+  const test::Scratch scratch("films");
+  const std::string dir = scratch.path;
+  Scene scene = full_scene();
+  scene.name = "wall";
+  const auto make_wall = [&](Existing existing) { create_run_folder(dir, existing, "", manifest_of(scene, "")); };
+  make_wall(Existing::force);
+  for (const char* folder : {"/compare", "/export", "/twin"}) fs::create_directories(dir + folder);
+  const char* former[] = {"/wall_street.mp4",      "/wall_street.webp",   "/twin.log",
+                          "/compare/compare.json", "/compare/frames.svg", "/compare/compare_side.mp4",
+                          "/export/wall.glb",      "/twin/energy.csv",    "/export/wall_blocks_00001.vtu"};
+  const char* users[] = {"/test.mp4", "/logo.webp", "/compare/measured.csv"};
+  for (const char* name : former) std::ofstream(dir + name) << "x";
+  for (const char* name : users) std::ofstream(dir + name) << "x";
+  make_wall(Existing::force);
+  for (const char* name : former) CHECK_FALSE(fs::exists(dir + name));
+  for (const char* name : users) CHECK(fs::exists(dir + name));
+  CHECK_FALSE(fs::exists(dir + "/export"));
 }
 
 TEST_CASE("metrics.json has the keys of the contract, unknown numbers are null", "[record][metrics]") {
