@@ -136,7 +136,8 @@ std::string capacity_text(const PushSettings& push, const Json& metrics) {
                             number("states"), number("attempts"), number("relaxation_steps"), number("unbalanced_relative"));
 }
 
-void print_summary(const Scene& scene, const std::string& directory, const Json& metrics, const std::vector<Verdict>& verdicts) {
+void print_summary(const Scene& scene, const std::string& directory, const Json& metrics, const std::vector<Verdict>& verdicts,
+                   std::size_t without_answer) {
   if (scene.push.quasi_static()) {
     const Json* performance = find_key(metrics, "capacity.performance");
     say("{}: {}, {} in {}; {} blocks, {} joints, {} broken\n{}\n", scene.name, metrics.value("status", ""), scene.push.kind,
@@ -154,6 +155,7 @@ void print_summary(const Scene& scene, const std::string& directory, const Json&
     const Json* value = find_key(metrics, "metrics." + name);
     say("  {} = {} {}\n", name, value && value->is_number() ? fmt::format("{:.6g}", value->get<double>()) : "none", unit);
   }
+  if (without_answer > 0) say("studies without an answer: {}; see above, and their tables in {}/studies\n", without_answer, directory);
   int failed = 0;
   for (const Verdict& v : verdicts) {
     if (v.passed) continue;
@@ -315,10 +317,10 @@ int complete(Script& script, const std::string& path, const std::string& directo
   for (const auto& trouble : studies.troubles) tell(stderr, trouble);
   for (const auto& message : failures) tell(stderr, message);
   if (whole && command.figures) draw_performance_point(script.scene(), directory, outcome);
-  if (!command.output.quiet) print_summary(script.scene(), directory, metrics, verdicts);
+  if (!command.output.quiet) print_summary(script.scene(), directory, metrics, verdicts, studies.troubles.size());
   if (command.profile) say("{}", profile_text(outcome));
   int code = exit_code(script.scene(), command, outcome, metrics, verdicts);
-  if (code == exit_ok && !failures.empty()) code = exit_usage;
+  if (code == exit_ok && !(failures.empty() && studies.troubles.empty())) code = exit_usage;
   if (command.video && status != "interrupted") {
     std::vector<std::string> words{directory, "--video"};
     if (command.output.force) words.push_back("--force");

@@ -76,7 +76,7 @@ TEST_CASE("rows that another program takes from a sweep are missed, and made aga
   std::filesystem::remove(study.out() + "/results.csv");
   CHECK(wait_for(other) == 2);
   CHECK_THAT(text_of(study.folder / "other"), Catch::Contains("holds 1 of 4") && Catch::Contains("--resume"));
-  REQUIRE(study.sweep(text, {"--resume"}) == 0);
+  REQUIRE(study.sweep(text, {"--resume"}) == 1);  // its long end takes too long
   CHECK(read_csv(study.out() + "/results.csv").rows() == 4);
   CHECK(read_csv(study.out() + "/runs.csv").rows() == 4);  // from what it knew of the runs
 }
@@ -95,7 +95,7 @@ TEST_CASE("a program that is replaced while its sweep is under way ends the swee
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
   std::filesystem::remove(program);
   std::ofstream(program) << "no program";
-  CHECK(wait_for(sweep) == 0);
+  CHECK(wait_for(sweep) == 1);
   const CsvTable table = read_csv(study.out() + "/results.csv");
   CHECK(table.text[std::size_t(table.find("status"))] == std::vector<std::string>{"timeout", "completed", "completed"});
 }

@@ -123,7 +123,7 @@ TEST_CASE("a run that fails is a row with its reason, and the others go on", "[s
   Study study;
   REQUIRE(study.sweep("study{ scene = 'tiny.lua', vary = { grid{ trouble = { 0, 1, 2, 3, 4 } } }, collect = { 'metrics.double' }, "
                       "max_wall = '1.5s', memory = '90MB' }",
-                      {"-j", "2"}) == 0);
+                      {"-j", "2"}) == 1);
   const CsvTable table = study.table();
   REQUIRE(table.rows() == 5);
   const auto& status = table.text[std::size_t(table.find("status"))];
@@ -160,7 +160,7 @@ end
 local limit = math.sqrt(1800 * edge / kn) / math.cos(pi / 5)
 analysis{ duration = 5000 * limit, dt = { excess * limit, unstable = true }, start = "rest", output_dt = 100 * limit }
 )");
-  REQUIRE(study.sweep("study{ scene = 'spring.lua', vary = grid{ excess = { .5, 1.05 } }, collect = 'time_s' }") == 0);
+  REQUIRE(study.sweep("study{ scene = 'spring.lua', vary = grid{ excess = { .5, 1.05 } }, collect = 'time_s' }") == 1);
   const CsvTable table = study.table();
   const auto& status = table.text[std::size_t(table.find("status"))];
   CHECK(status[0] == "completed");
@@ -172,7 +172,7 @@ analysis{ duration = 5000 * limit, dt = { excess * limit, unstable = true }, sta
 TEST_CASE("a bracket whose ends agree is a row that says what to change", "[sweep]") {
   Study study;
   const auto reason = [&](const std::string& ends) {
-    study.sweep("study{ scene = 'tiny.lua', bisect = { param = 'h', " + ends + ", key = 'metrics.tall' } }", {"--force"});
+    CHECK(study.sweep("study{ scene = 'tiny.lua', bisect = { param = 'h', " + ends + ", key = 'metrics.tall' } }", {"--force"}) == 1);
     const CsvTable table = study.table();
     CHECK(table.text[std::size_t(table.find("status"))][0] == "no bracket");
     return table.text[std::size_t(table.find("reason"))][0];

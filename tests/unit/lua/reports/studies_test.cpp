@@ -147,7 +147,7 @@ TEST_CASE("studies of a scene give the same for any number of runs at once, and 
     box { name = "block", size = { .4, .4, .1 }, at = { 0, 0, 0 }, free = true }
     analysis { duration = long > 1 and 1e6 or .01, stop_after_collapse = 1e6 }
     converge { param = "long", values = { 1, 2 }, value = function(run) return run.time_s end })";
-  REQUIRE(bench.run(endless, {"--max-wall", "1s", "--force", "--no-figures"}) == 0);
+  REQUIRE(bench.run(endless, {"--max-wall", "1s", "--force", "--no-figures"}) == 2);
   CHECK(bench.metric("converge_long_failed") == 1);
   CHECK(bench.said.find("took longer than max_wall = 1 s") != std::string::npos);
 }
@@ -170,6 +170,15 @@ TEST_CASE("an oscillator's error falls with the square of its step", "[lua][stud
       return worst end })") == 0);
   CHECK(bench.metric("converge_share_slope") == Approx(2).epsilon(0.03));
   CHECK(bench.said.find("1 passed, 0 failed") != std::string::npos);
+}
+
+TEST_CASE("a run whose bisection finds no bracket does not end as if it had an answer", "[lua][study]") {
+  Bench bench;
+  CHECK(bench.run(slope, {"-D", "mu=2", "--no-figures"}) == 2);
+  INFO(bench.said);
+  CHECK(bench.said.find("the verdict is no at hi = 1 still; raise it") != std::string::npos);
+  CHECK(bench.said.find("studies without an answer: 1") != std::string::npos);
+  CHECK(std::isnan(bench.metric("collapse_slope")));
 }
 
 TEST_CASE("mistakes of a study name their place and remedy", "[lua][study]") {
