@@ -96,12 +96,14 @@ void sample_waves(lua_State* lua, Context& context) {
 void resolve_groups(Context& context) {
   for (const GroupRecorder& item : context.group_recorders) {
     Recorder& recorder = context.scene.recorders[item.recorder];
+    std::vector<std::string>& blocks = item.others ? recorder.others : recorder.blocks;
+    const size_t named = blocks.size();  // by their own names
     std::vector<std::string> groups;
     for (const Block& block : context.scene.blocks) {
-      if (block.group == item.group) recorder.blocks.push_back(block.name);
+      if (block.group == item.group) blocks.push_back(block.name);
       else if (std::find(groups.begin(), groups.end(), block.group) == groups.end()) groups.push_back(block.group);
     }
-    if ((item.others ? recorder.others : recorder.blocks).empty())
+    if (blocks.size() == named)
       context.mistake(recorder.place, fmt::format("recorder \"{}\": group \"{}\" has no blocks{}", recorder.name, item.group,
                                                   did_you_mean(item.group, groups)));
   }

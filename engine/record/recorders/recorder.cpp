@@ -35,6 +35,8 @@ void check_one(const Recorder& r, const std::set<std::string>& blocks, std::vect
     say(fmt::format("there is no quantity \"{}\"{}; allowed: {}", r.quantity,
                     nearest(r.quantity, known).empty() ? "" : did_you_mean(r.quantity, known), fmt::join(known, ", ")));
   else if (needs_blocks(r.quantity) && r.blocks.empty()) say(fmt::format("{} of which block? Give block, blocks or group", r.quantity));
+  else if (!r.others.empty() && quantity_index(JointQuantity::quantities(), r.quantity) < 0)
+    say(fmt::format("{} is no quantity of joints, which have another side; leave out others and other_group", r.quantity));
   std::set<std::string> listed;
   for (const auto* list : {&r.blocks, &r.others})
     for (const std::string& block : *list)

@@ -53,6 +53,12 @@ TEST_CASE("the pier is sound", "[bad_input]") {
   INFO(bench.said);
 }
 
+TEST_CASE("a recorder of joints takes the group on their other side", "[bad_input]") {
+  Bench bench;
+  CHECK(bench.run(pier + "recorder{ name = 'r', quantity = 'opening', group = 'ground', other_group = 'pier' }", {"--no-figures"}) == 0);
+  INFO(bench.said);
+}
+
 TEST_CASE("what a scene says wrong is one message with its place and remedy", "[bad_input]") {
   Bench bench;
   const std::string at = "scene.lua:7: ";
@@ -94,6 +100,12 @@ TEST_CASE("what a scene says wrong is one message with its place and remedy", "[
       {"analysis{ duration = 0 }", {at, "duration = 0 s is out of range; allowed is 1e-09 to 1e+06 s"}},
       {"analysis{ duration = math.huge }", {at, "duration is infinite (1/0?); allowed is 1e-09 to 1e+06 s"}},
       {"analysis{ duration = 1, dt = 0.1 }", {at, "analysis: dt = 0.1 s", "times the limit", "take at most", "unstable = true"}},
+      {"recorder{ name = 'r', quantity = 'displacement', block = 'b1', group = 'peir' }",
+       {at, "group \"peir\" has no blocks; did you mean \"pier\"?"}},
+      {"recorder{ name = 'r', quantity = 'opening', block = 'b1', others = 'b2', other_group = 'peir' }",
+       {at, "group \"peir\" has no blocks; did you mean \"pier\"?"}},
+      {"recorder{ name = 'r', quantity = 'displacement', block = 'b1', others = 'b2' }",
+       {at, "displacement is no quantity of joints", "leave out others"}},
       {"recorder{ name = 'r', quantity = 'displacement', block = 'b11' }", {at, "there is no block \"b11\"; did you mean \"b1\"?"}},
       {"recorder{ name = 'r', quantity = 'load', blocks = { 'b1', 'b2', 'b1' } }", {at, "block \"b1\" is listed twice"}},
       {"recorder{ name = 'r', quantity = 'displacment', block = 'b1' }", {at, "did you mean \"displacement\"?; allowed: displacement, "}},
