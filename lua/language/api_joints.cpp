@@ -23,6 +23,23 @@ Keys law_keys() {
   return keys_of<L>();
 }
 
+// Of two keys that give the same property, one would be ignored; 0 stands for left out.
+void refuse_both(const Mortar& law, Arguments& arguments) {
+  struct Rival {
+    double Mortar::*one, Mortar::*other;
+    const char *names[2], *property;
+  };
+  constexpr Rival rivals[] = {
+      {&Mortar::E, &Mortar::kn, {"E", "kn"}, "the normal stiffness, by E / thickness or as it is"},
+      {&Mortar::G, &Mortar::ks, {"G", "ks"}, "the shear stiffness, by G / thickness or as it is"},
+      {&Mortar::Gf1, &Mortar::un_ultimate, {"Gf1", "un_ultimate"}, "the opening at which tensile strength is lost"},
+      {&Mortar::Gf2, &Mortar::us_ultimate, {"Gf2", "us_ultimate"}, "the slip at which cohesion is lost"},
+  };
+  for (const Rival& rival : rivals)
+    if (law.*rival.one > 0 && law.*rival.other > 0)
+      arguments.mistake(fmt::format("{} and {} both give {}; leave one out", rival.names[0], rival.names[1], rival.property));
+}
+
 template <class L>
 int make_law(Call& call) {
   Arguments arguments = call.arguments();
@@ -30,6 +47,7 @@ int make_law(Call& call) {
   arguments.read(law);
   if constexpr (requires { law.scatter; })
     if (auto table = arguments.table("scatter", scatter_keys())) table->read(law.scatter);
+  if constexpr (std::is_same_v<L, Mortar>) refuse_both(law, arguments);
   if (const std::string mistake = law.complete(); !mistake.empty()) arguments.mistake(mistake);
   push_law(call.lua, call.context, law);
   return 1;
