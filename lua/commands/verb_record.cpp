@@ -50,6 +50,20 @@ void check_folder(const fs::path& folder, const RecordReport& r, bool force) {
                             folder.string()));
 }
 
+fs::path folder_of(const RecordCommand& command, const std::string& file) {
+  return command.output.directory.empty() ? fs::path("runs") / fs::path(file).stem() : fs::path(command.output.directory);
+}
+
+// Records of one name would be written over each other.
+void check_names(const RecordCommand& command) {
+  const std::vector<std::string>& files = command.words;
+  for (std::size_t i = 0; i < files.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      if (const std::string folder = folder_of(command, files[i]).string(); folder == folder_of(command, files[j]))
+        throw Error(fmt::format("{} would go into the folder of {}, \"{}\"; read them one at a time, each with its own -o DIR", files[i],
+                                files[j], folder));
+}
+
 // The record without its corrections; none if there are none.
 std::optional<Uncorrected> uncorrected(const Record& wanted) {
   if (wanted.baseline == "none" && wanted.low <= 0 && wanted.high <= 0) return std::nullopt;
@@ -97,6 +111,7 @@ int verb_record(const RecordCommand& command) {
   if (command.words.size() > 1 && !command.output.directory.empty())
     throw Error(fmt::format("-o {} is one folder for {} records; leave it out, and each gets its own", command.output.directory,
                             command.words.size()));
+  check_names(command);
   for (const auto& file : command.words) {
     Record wanted = command.record;
     wanted.file = file;
@@ -110,9 +125,7 @@ int verb_record(const RecordCommand& command) {
                            "before correction", std::abs(before->report.pga.value) / standard_g, std::abs(before->report.pgv.value),
                            std::abs(before->report.pgd.value), before->report.end_velocity, 1e3 * before->report.end_displacement);
     say("{}", table.str());
-    const fs::path folder =
-        command.output.directory.empty() ? fs::path("runs") / fs::path(file).stem() : fs::path(command.output.directory);
-    const std::string picture = write_folder(folder, record, numbers, before, command.output.force);
+    const std::string picture = write_folder(folder_of(command, file), record, numbers, before, command.output.force);
     if (!command.output.quiet) say("{:<22} {}\n", "picture", picture);
   }
   return exit_ok;

@@ -45,6 +45,16 @@ TEST_CASE("a file that says little asks for what it lacks", "[record][program]")
   CHECK(read_json(bench.out() + "/record.json")["pga_m_s2"].get<double>() == 4);
 }
 
+TEST_CASE("records of one name from two folders are not drawn over each other", "[record][program]") {
+  Bench bench;
+  fs::create_directories(bench.folder / "a"), fs::create_directories(bench.folder / "b");
+  bench.write("a/x.txt", "0 0.1\n1 -0.2\n"), bench.write("b/x.csv", "0 0.1\n1 -0.3\n");
+  CHECK(bench.erbs({"record", (bench.folder / "a/x.txt").string(), (bench.folder / "b/x.csv").string(), "--unit", "g", "--force"}) == 2);
+  INFO(bench.said);
+  CHECK(contains(bench.said, "b/x.csv would go into the folder of"));
+  CHECK(contains(bench.said, "each with its own -o DIR"));
+}
+
 TEST_CASE("a folder of something else is left alone", "[record][program]") {
   Bench bench;
   fs::create_directories(bench.out());
