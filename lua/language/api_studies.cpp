@@ -187,8 +187,11 @@ std::vector<std::pair<std::string, std::vector<double>>> lists_of(Call& call, co
       values.push_back(lua_tonumber(call.lua, -1));
       lua_pop(call.lua, 1);
     }
+    if (!valid) call.mistake(fmt::format("{} must be a list of finite numbers, such as {{ 1, 3, 8 }}", name));
+    for (std::size_t i = 1; valid && i < values.size(); ++i)
+      if (std::find(values.begin(), values.begin() + std::ptrdiff_t(i), values[i]) != values.begin() + std::ptrdiff_t(i))
+        call.mistake(fmt::format("{} has {:g} twice, which would be the same run; leave one out", name, values[i]));
     if (valid) lists.emplace_back(name, values);
-    else call.mistake(fmt::format("{} must be a list of finite numbers, such as {{ 1, 3, 8 }}", name));
   }
   return lists;
 }

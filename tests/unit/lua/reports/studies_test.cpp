@@ -219,6 +219,7 @@ TEST_CASE("a family that names no param, or no numbers, is refused with place an
   CHECK(mentions(mistakes_in("param('kn', 1) family { kn = {} }"), "kn must be a list of finite numbers"));
   CHECK(mentions(mistakes_in("param('kn', 1) family { kn = { 1, 0/0 } }"), "kn must be a list of finite numbers"));
   CHECK(mentions(mistakes_in("param('kn', 1) family { { 1, 2 } }"), "it takes the names of params"));
+  CHECK(mentions(mistakes_in("param('kn', 1) family { kn = { 1, 2, 1 } }"), "scene.lua:6: family: kn has 1 twice"));
   CHECK(mentions(mistakes_in("family(3)"), "family takes a table of lists"));
   CHECK(mentions(mistakes_in("param('kn', 1) family { kn = { 1 } } family { kn = { 2 } }"), "one was given before, at scene.lua:6"));
   CHECK(mentions(mistakes_in("param('kn', 1) family({ kn = { 1 } }, { combination = 3 })"), "did you mean \"combinations\"?"));
