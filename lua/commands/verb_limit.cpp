@@ -4,7 +4,6 @@
 #include <filesystem>
 
 #include "engine/analysis/limit/report.h"
-#include "engine/base/units.h"
 #include "engine/model/build/build.h"
 #include "engine/record/folder/run_folder.h"
 #include "lua/program/options.h"
@@ -62,12 +61,10 @@ void print(const LimitResult& r, const LimitLoad& load, const Model& model) {
   print_row("associated", r.associated, fmt::format("   {} iterations", r.associated.iterations));
   if (r.has_nonassociated)
     print_row("non-associated", r.nonassociated, fmt::format("   {} rounds, {} iterations", r.rounds, r.nonassociated.iterations));
-  const double lambda = r.last().middle();
   if (load.pattern.empty())
     say("lambda is a share of g along ({:.4g}, {:.4g}, {:.4g})\n", load.direction.x(), load.direction.y(), load.direction.z());
   else say("lambda multiplies the pattern of forces\n");
-  if (load.pattern.empty() && std::fabs(load.direction.dot(model.gravity)) < 1e-9)
-    say("tilting angle    {:.3f} deg   atan(lambda): a tilted base or gravity\n", std::atan(lambda) * 180 / pi);
+  if (const auto tilt = tilt_angle(r, load, model)) say("tilting angle    {:.3f} deg   atan(lambda): a tilted base or gravity\n", *tilt);
   say("mechanism        {}\n", mechanism);
 }
 

@@ -1,5 +1,6 @@
 #include "engine/analysis/limit/report.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "engine/base/units.h"
@@ -16,12 +17,14 @@ Json to_json(const Multiplier& m) {
   return {{"lower", m.lower}, {"upper", m.upper}, {"converged", m.converged}, {"iterations", m.iterations}, {"wall_s", m.seconds}};
 }
 
-// The multiplier of a load in proportion to mass is a share of g, as the tangent of a tilt is.
-Json tilt_of(const LimitLoad& load, const Multiplier& m) {
-  return load.pattern.empty() && load.direction.z() == 0 ? Json(std::atan(m.middle()) * 180 / pi) : Json(nullptr);
-}
-
 }  // namespace
+
+std::optional<double> tilt_angle(const LimitResult& r, const LimitLoad& load, const Model& m) {
+  const bool bonded = std::ranges::any_of(r.problem.contacts, [](const ContactPoint& p) { return p.tension > 0 || p.cohesion > 0; });
+  const bool level = m.gravity.norm() > 0 && std::fabs(load.direction.dot(m.gravity)) < 1e-9 * m.gravity.norm();
+  if (!r.stands || r.unbounded || bonded || !level || !load.pattern.empty() || !m.force_loads.empty()) return std::nullopt;
+  return std::atan(r.last().middle()) * 180 / pi;
+}
 
 Json limit_json(const LimitResult& r, const LimitLoad& load, const Model& m) {
   const LimitMechanism mechanism = limit_mechanism(r, m);
@@ -44,7 +47,8 @@ Json limit_json(const LimitResult& r, const LimitLoad& load, const Model& m) {
     out["nonassociated"]["rounds"] = r.rounds;
     out["nonassociated"]["friction_excess_share"] = r.friction_excess;
   }
-  out["tilt_deg"] = r.stands && !r.unbounded ? tilt_of(load, r.last()) : Json(nullptr);
+  const std::optional<double> tilt = tilt_angle(r, load, m);
+  out["tilt_deg"] = tilt ? Json(*tilt) : Json(nullptr);
   out["mechanism"] = {{"kind", mechanism.kind},
                       {"words", mechanism.words},
                       {"moving_blocks", mechanism.moving},

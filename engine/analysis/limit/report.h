@@ -1,11 +1,16 @@
 // Files of a limit analysis: limit.json, mechanism.csv, thrust.csv, and the figure of thrust and mechanism.
 #pragma once
+#include <optional>
 #include <string>
 
 #include "engine/analysis/limit/outcome.h"
 #include "engine/record/format/json.h"
 
 namespace erbs::analysis {
+
+// Tilt (deg) of the base at which the mechanism forms: atan of the multiplier, where only the ratio of horizontal load to weight counts.
+// A bond or a force does not turn with gravity: there a tilt is another load, and there is none.
+std::optional<double> tilt_angle(const LimitResult& result, const LimitLoad& load, const Model& model);
 
 Json limit_json(const LimitResult& result, const LimitLoad& load, const Model& model);
 

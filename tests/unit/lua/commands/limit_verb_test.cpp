@@ -39,6 +39,19 @@ TEST_CASE("erbs limit says multiplier, tilting angle and mechanism", "[limit][pr
   CHECK(bench.said.empty());
 }
 
+TEST_CASE("erbs limit says no tilting angle where a tilt is another load", "[limit][program]") {
+  Bench bench;
+  std::string bonded = block;
+  bonded.replace(bonded.find("dry {"), 5, "mortar { ft = 1e3, c = 2e3,");
+  for (const std::string& text : {bonded, block + std::string("force{ block = 'block', direction = { 0, 0, -1 }, wave = 1e4 }\n")}) {
+    bench.write("block.lua", text);
+    REQUIRE(bench.erbs({"limit", (bench.folder / "block.lua").string(), "-o", bench.out(), "--force"}) == 0);
+    INFO(bench.said);
+    CHECK_FALSE(contains(bench.said, "tilting angle"));
+    CHECK(read_json(bench.out() + "/limit.json")["tilt_deg"].is_null());
+  }
+}
+
 TEST_CASE("erbs limit writes its numbers, its thrusts and a figure", "[limit][program]") {
   Bench bench;
   bench.write("block.lua", block);
