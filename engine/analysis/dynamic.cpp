@@ -159,7 +159,7 @@ void Run::record(const Snapshot& now) {
     writer_->event(now.t, "collapse", scene_.name, collapse_.fallen_fraction, "share of mass");
     for (const MovedJoint& moved : collapse_.mechanism.moved)
       writer_->event(now.t, word(moved.kind), run_.model.joint_name(moved.joint), std::max({moved.opening, moved.slip, moved.gap}), "m");
-    writer_->log(fmt::format("collapse at t = {:.6g} s; {}", now.t, summary(collapse_.mechanism, run_.model, 1000)));
+    writer_->log(fmt::format("collapse {}; {}", span_of_event(scene_.analysis, now.t), summary(collapse_.mechanism, run_.model, 1000)));
   }
   run_.state.observed.joints_broken = now.joints_broken;
   const Analysis& how = scene_.analysis;
@@ -322,7 +322,7 @@ RunOutcome Run::go() {
   out_.limits = limit_lines(out_.profile, run_.model);
   out_.metrics = metrics();
   writer_->log(diagnostics_line(out_.metrics.diagnostics));
-  if (output_.joints.first_crack >= 0) writer_->log(fmt::format("first crack at t = {:.6g} s", output_.joints.first_crack));
+  if (const double t = output_.joints.first_crack; t >= 0) writer_->log("first crack " + span_of_event(scene_.analysis, t));
   writer_->close();
   write_metrics(options_.directory, out_.metrics);
   return std::move(out_);

@@ -15,6 +15,7 @@
 #include "engine/base/system/interrupt.h"
 #include "engine/base/text.h"
 #include "engine/record/performance/performance_figure.h"
+#include "engine/record/results/collapse.h"
 #include "engine/scene/effects.h"
 #include "engine/study/twin.h"
 #include "lua/program/child.h"
@@ -78,7 +79,7 @@ double number_at(const Json& metrics, const char* key) {
   return value && value->is_number() ? value->get<double>() : 0;
 }
 
-std::string collapse_text(const Json& metrics) {
+std::string collapse_text(const Analysis& how, const Json& metrics) {
   const Json* collapsed = find_key(metrics, "collapse.collapsed");
   const double share = number_at(metrics, "collapse.fallen_fraction");
   if (!collapsed || !collapsed->is_boolean() || !collapsed->get<bool>())
@@ -90,8 +91,8 @@ std::string collapse_text(const Json& metrics) {
                                   ? fmt::format(" towards ({:+.2f}, {:+.2f})", (*direction)[0].get<double>(), (*direction)[1].get<double>())
                                   : " in no single direction";
   std::string text = under_gravity ? fmt::format("does not stand under its own weight; {:.0f} % of the mass fell by the end", 100 * share)
-                                   : fmt::format("collapse at {:.3f} s{}; {:.0f} % of the mass has fallen by the end",
-                                                 number_at(metrics, "collapse.time_s"), towards, 100 * share);
+                                   : fmt::format("collapse {}{}; {:.0f} % of the mass has fallen by the end",
+                                                 span_of_event(how, number_at(metrics, "collapse.time_s")), towards, 100 * share);
   const Json* mechanism = find_key(metrics, "collapse.mechanism.summary");
   const Json* course = find_key(metrics, "collapse.course");
   if (course && course->is_string() && *course != "") text += "\ncourse: " + course->get<std::string>();
@@ -148,7 +149,7 @@ void print_summary(const Scene& scene, const std::string& directory, const Json&
     say("{}: {}, {:g} s simulated in {} ({:.3g} x real time); {} blocks, {} joints, {} broken\n", scene.name, metrics.value("status", ""),
         number_at(metrics, "time_s"), duration_text(number_at(metrics, "wall_s.total")), number_at(metrics, "realtime_factor"),
         metrics.value("blocks", 0), metrics.value("joints", 0), metrics.value("joints_broken", 0));
-    say("{}\nenergy residual {:.1e}\n{}\n", collapse_text(metrics), number_at(metrics, "energy.residual_relative"),
+    say("{}\nenergy residual {:.1e}\n{}\n", collapse_text(scene.analysis, metrics), number_at(metrics, "energy.residual_relative"),
         analysis::diagnostics_line(diagnostics_of(metrics)));
   }
   for (const auto& [name, unit] : scene.metric_units) {

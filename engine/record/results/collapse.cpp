@@ -1,6 +1,9 @@
 #include "engine/record/results/collapse.h"
 
+#include <algorithm>
 #include <cmath>
+
+#include "engine/base/error.h"
 
 namespace erbs {
 namespace {
@@ -40,6 +43,15 @@ bool update(Collapse& collapse, const Model& model, const BlockPoses& pose, doub
   collapse.time = t;
   collapse.mechanism = mechanism_of(model, pose, t);
   return true;
+}
+
+std::string span_of_event(const Analysis& how, double t) {
+  const std::array every{how.output_dt, how.frame_dt};
+  double due = 0, before = 0;  // of this look, which may be taken up to a step later, and of the one before
+  for (const double dt : every) due = std::max(due, dt * std::floor(t / dt + 1e-6));
+  for (const double dt : every) before = std::max(before, dt * (std::ceil(due / dt - 1e-6) - 1));
+  const int decimals = std::clamp(1 + int(std::ceil(-std::log10(std::min(every[0], every[1])) - 1e-6)), 0, 9);
+  return fmt::format("between {:.{}f} and {:.{}f} s", before, decimals, t, decimals);
 }
 
 std::optional<std::array<double, 2>> collapse_direction(const Collapse& collapse, const Model& model, const BlockPoses& pose) {

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <type_traits>
 #include <vector>
 
@@ -44,6 +45,9 @@ Collapse watch_collapse(const Model& model, const BlockPoses& start);
 // Updates the criterion with the poses at time t. Appends blocks that have fallen for the first time to `newly`, if given. Returns true at
 // the moment of collapse.
 bool update(Collapse& collapse, const Model& model, const BlockPoses& pose, double t, std::vector<int>* newly = nullptr);
+
+// "between 3.36 and 3.37 s": what is looked at when rows and frames are due, and found at the time t, came after the look before.
+std::string span_of_event(const Analysis& how, double t);
 
 // Mean horizontal displacement (x, y) of the blocks that are down now, as a unit vector. Empty if no block is down. Empty also if the mean
 // vector is shorter than a tenth of the mean length: the blocks fell in all directions.

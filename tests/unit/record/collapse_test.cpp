@@ -25,6 +25,18 @@ TEST_CASE("a block has fallen below half its thinnest extent from where it start
   CHECK(c.time == 1.5);
 }
 
+TEST_CASE("the time of a collapse is said as far as it is known: between two looks at the poses", "[record][collapse]") {
+  Analysis how;
+  how.output_dt = 0.01, how.frame_dt = 0.04;
+  CHECK(span_of_event(how, 3.3702) == "between 3.360 and 3.370 s");
+  CHECK(span_of_event(how, 0.01) == "between 0.000 and 0.010 s");
+  how.output_dt = 0.1, how.frame_dt = 0.04;
+  CHECK(span_of_event(how, 0.5) == "between 0.480 and 0.500 s");
+  CHECK(span_of_event(how, 0.521) == "between 0.500 and 0.521 s");
+  how.output_dt = how.frame_dt = 1e-4;
+  CHECK(span_of_event(how, 0.0204) == "between 0.02030 and 0.02040 s");
+}
+
 TEST_CASE("the share that makes a collapse is the scene's", "[record][collapse]") {
   auto t = test::two_bricks();
   t.model.analysis.collapse_fraction = 0.5;
