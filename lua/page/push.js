@@ -20,6 +20,11 @@ function endOf(capacity, completed) {
   return controlled ? 'The load still rises at the largest displacement asked for' : 'The structure stands up to the largest load asked for';
 }
 
+function shearText(capacity) {
+  const share = capacity.base_shear_over_weight;
+  return typeof share === 'number' ? `${percent(share)} of the weight` : withUnit(capacity.base_shear_N, 'N');
+}
+
 function verdict(metrics) {
   const {capacity} = metrics, completed = metrics.status === 'completed', ended = completed ? '' : ` (run ${metrics.status})`;
   if (capacity.gravity_alone) return card('bad', 'Verdict', `Does not stand under its own weight${ended}`, []);
@@ -30,7 +35,7 @@ function verdict(metrics) {
   const walls = Object.entries(capacity.walls ?? {}).map(([group, does]) => `${group}: ${does}`);
   if (walls.length) lines.push(`Walls: ${walls.join('; ')}`);
   lines.push(
-      `At that load: displacement ${withUnit(capacity.displacement_m, 'm')}, base shear ${percent(capacity.base_shear_over_weight)} of the weight, ` +
+      `At that load: displacement ${withUnit(capacity.displacement_m, 'm')}, base shear ${shearText(capacity)}, ` +
       `joints opened: ${capacity.joints_opened}, slid: ${capacity.joints_slid}`);
   lines.push(`${metrics.joints_broken} of ${metrics.joints} joints broken; ${metrics.blocks} blocks`);
   const checks = metrics.expectations ?? {};

@@ -26,7 +26,7 @@ CurvePoint curve_point(const Model& m, const State& s, const Relaxation& relaxat
     if (m.kind[z(b)] == Kind::moving)
       p.most = std::max(p.most, pose.u[z(b)].dot(push.direction)), weight += m.mass[z(b)] * m.gravity.norm();
   p.base_shear = relaxation.reaction(solver).dot(push.direction);
-  p.base_shear_over_weight = weight > 0 ? p.base_shear / weight : 0;
+  p.base_shear_over_weight = weight > 0 ? p.base_shear / weight : std::nan("");
   for (int j = 0; j < m.njoint; ++j) {
     if (s.joints.stage[z(j)] == JointStage::intact) continue;
     const JointCondition c = joint_condition(m, s.joints, pose, j);

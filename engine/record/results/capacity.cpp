@@ -27,7 +27,7 @@ Json to_json(const Capacity& c) {
   json["displacement_m"] = p.displacement;
   json["largest_displacement_m"] = p.most;
   json["base_shear_N"] = p.base_shear;
-  json["base_shear_over_weight"] = p.base_shear_over_weight;
+  json["base_shear_over_weight"] = std::isnan(p.base_shear_over_weight) ? Json() : Json(p.base_shear_over_weight);
   json["joints_opened"] = p.opening;
   json["joints_slid"] = p.slid;
   json["past_peak"] = c.past_peak;

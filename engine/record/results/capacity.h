@@ -16,7 +16,7 @@ struct CurvePoint {
   double displacement = 0;            // m, of the monitored point along the push
   double most = 0;                    // m, of the block that moved most along the push
   double base_shear = 0;              // N, along the push, on fixed blocks
-  double base_shear_over_weight = 0;  // of the weight of the moving blocks
+  double base_shear_over_weight = 0;  // of the weight of the moving blocks; NaN without gravity
   int opening = 0, slid = 0;          // joints that are open, that have slid
   double unbalanced = 0;              // mean unbalanced force over mean applied force
   double steps = 0;                   // of relaxation

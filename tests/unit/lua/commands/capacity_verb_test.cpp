@@ -71,6 +71,17 @@ TEST_CASE("a pushover with a spectrum has its performance point", "[capacity][pr
   CHECK(there.column("displacement_m").back() == Approx(target).epsilon(1.1e-3));
 }
 
+TEST_CASE("a push without gravity says its base shear in newtons", "[capacity][program]") {
+  Bench bench;
+  REQUIRE(bench.run(four_bricks() + "gravity(0) joint{ law = mortar{ kn = 1e10, ft = 1e5, c = 2e5, mu = .6 } }\n"
+                                    "analysis{ kind = 'pushover', up_to = .1, step = .1, limit = 'never' }",
+                    {"--no-figures"}) == 0);
+  INFO(bench.said);
+  CHECK(contains(bench.said, " kN, 0 joints opened"));
+  CHECK_FALSE(contains(bench.said, "of the weight"));
+  CHECK(read_json(bench.out() + "/metrics.json")["capacity"]["base_shear_over_weight"].is_null());
+}
+
 TEST_CASE("a push by load ends at its peak, and so does its curve", "[capacity][program]") {
   Bench bench;
   REQUIRE(bench.run(load + "spectrum { kind = 'EN 1998-1 type 1', ground = 'B', ag = 0.05*g }", {"--no-figures"}) == 0);
