@@ -325,6 +325,10 @@ building = public(function(options)
   if k.closed and #corners % 2 == 1 then
     fail("building: a closed plan parallel to x and y has an even number of corners, not %d", #corners)
   end
+  local runs = k.closed and #corners or #corners - 1
+  if k.walls and #k.walls ~= runs then
+    fail("building: walls has %d names for %d runs of the plan; give one for each, or leave walls out", #k.walls, runs)
+  end
   if k.slab and #corners ~= 4 then fail("building: a slab needs a plan of four corners; leave it out and lay plates with box{}") end
   if type(k.courses) == "table" and #k.courses ~= k.storeys then
     fail("building: courses has %d numbers for %d storeys; give one for each", #k.courses, k.storeys)
