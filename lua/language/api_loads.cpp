@@ -109,6 +109,9 @@ int ground_records(Call& call) {
 
 int gravity(Call& call) {
   Scene& scene = call.context.scene;
+  Place& before = call.context.gravity;
+  if (before.line > 0) call.mistake(fmt::format("it was given before, at {}; keep one", before.text()));
+  before = call.place;
   if (lua_type(call.lua, 1) == LUA_TNUMBER) {
     const double g = lua_tonumber(call.lua, 1);
     if (!(g >= 0 && g <= 1000)) call.mistake(fmt::format("{} m/s2 is out of range; allowed is 0 to 1000 m/s2 (downwards)", written(g)));

@@ -92,6 +92,7 @@ struct Context {
   std::vector<study::Knob> knobs;  // of accuracy{}
   std::vector<Figure> figures;
   ParamFamily family;
+  Place gravity;  // of gravity()
   std::vector<WordParam> words;
   bool study_file = false;          // the script is a study for erbs sweep, not a scene
   std::optional<study::Plan> plan;  // of study{}

@@ -106,6 +106,7 @@ TEST_CASE("what a scene says wrong is one message with its place and remedy", "[
        {at, "group \"peir\" has no blocks; did you mean \"pier\"?"}},
       {"recorder{ name = 'r', quantity = 'displacement', block = 'b1', others = 'b2' }",
        {at, "displacement is no quantity of joints", "leave out others"}},
+      {"gravity(9.81) gravity{ 0, 0, -1.6 }", {at, "gravity: it was given before, at ", "scene.lua:7; keep one"}},
       {"building{ plan = { 2, 2 }, courses = 2, brick = { length = .25, width = .12, height = .06 }, joint = .01, walls = { 'a', 'b' } }",
        {at, "walls has 2 names for 4 runs of the plan", "give one for each"}},
       {"joint{ law = mortar{ E = 1e9, kn = 1e11, thickness = .01, ft = 1e5, c = 2e5, mu = .6 } }",
