@@ -39,8 +39,9 @@ plot::Figure push_figure(const std::string& file, const CsvTable& curve, const R
     load.add_horizontal(highest, "lw 1 dt 3 lc rgb '#7d7d7d'");
     load.labels.push_back({fmt::format("{:.4g}", highest), fmt::format("graph 0.01, first {}", highest), "offset 0,-0.7 tc rgb '#5d5d5d'"});
   }
-  const bool few = std::max(peak_of(curve.column("joints_opened")), peak_of(curve.column("joints_slid"))) < 5;  // else halves are labelled
-  plot::Panel joints{.cell = {0, 1, 0, 0.36}, .x = {.label = along}, .y = {.label = "joints", .tics = few ? "1" : ""}, .key = "top left"};
+  const double most = std::max(peak_of(curve.column("joints_opened")), peak_of(curve.column("joints_slid")));
+  const plot::Axis number{.label = "joints", .range = most > 0 ? "[0:*]" : "[0:1]", .tics = most < 5 ? "1" : ""};  // no halves
+  plot::Panel joints{.cell = {0, 1, 0, 0.36}, .x = {.label = along}, .y = number, .key = "top left"};
   for (const auto& [name, title, look] : {std::array{"joints_opened", "opened", "#d55e00"}, std::array{"joints_slid", "slid", "#009e73"}})
     joints.series.push_back(
         {fmt::format("{}{}:{}", source, x, curve.find(name) + 1), fmt::format("linespoints lw 1.3 pt 7 ps 0.4 lc rgb '{}'", look), title});

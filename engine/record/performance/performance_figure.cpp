@@ -45,14 +45,27 @@ std::string curve_rows(const Performance& p, const PerformancePoint& point, cons
   return rows;
 }
 
-// A line of equal period from the origin to the edge of the panel, with its name there.
-void add_period(plot::Panel& panel, double period, const std::string& name, const Scale& scale) {
-  const double slope = 4 * pi * pi / (period * period) / (standard_g * scale.length);  // g per shown unit
-  const double x = std::min(scale.x, scale.y / slope), y = slope * x;
-  panel.lines.push_back(fmt::format("from first 0,0 to first {:.6g},{:.6g} nohead back lw 0.8 dt (4,4) lc rgb '{}'", x, y, grey));
-  const bool above = x < scale.x * (1 - 1e-9);
-  panel.labels.push_back({name, fmt::format("first {:.6g},{:.6g}", x, y),
-                          fmt::format("{} font ',11' tc rgb '#5a5a5a'", above ? "center offset 0,0.6" : "right offset -0.4,0.7")});
+struct PeriodLine {
+  double period;  // s
+  std::string name;
+};
+
+// Lines of equal period from the origin to the edge of the panel, with their names there. Names that would run into each other at the
+// upper edge are written to either side.
+void add_periods(plot::Panel& panel, std::vector<PeriodLine> lines, const Scale& scale) {
+  std::ranges::sort(lines, {}, &PeriodLine::period);
+  const auto slope = [&](const PeriodLine& l) { return 4 * pi * pi / (l.period * l.period) / (standard_g * scale.length); };  // g per unit
+  const auto end = [&](const PeriodLine& l) { return std::min(scale.x, scale.y / slope(l)); };
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    const double x = end(lines[i]), y = slope(lines[i]) * x;
+    const auto near = [&](std::size_t other) { return other < lines.size() && std::fabs(end(lines[other]) - x) < 0.25 * scale.x; };
+    const char* look = x > scale.x * (1 - 1e-9) ? "right offset -0.4,0.7"
+                       : near(i + 1)            ? "right offset 0.5,0.6"
+                       : near(i - 1)            ? "left offset -0.5,0.6"
+                                                : "center offset 0,0.6";
+    panel.lines.push_back(fmt::format("from first 0,0 to first {:.6g},{:.6g} nohead back lw 0.8 dt (4,4) lc rgb '{}'", x, y, grey));
+    panel.labels.push_back({lines[i].name, fmt::format("first {:.6g},{:.6g}", x, y), fmt::format("{} font ',11' tc rgb '#5a5a5a'", look)});
+  }
 }
 
 plot::Panel panel_of(plot::Figure& figure, const Performance& p, const PerformancePoint& point, const DesignSpectrum& spectrum,
@@ -83,10 +96,11 @@ plot::Panel panel_of(plot::Figure& figure, const Performance& p, const Performan
                                       o.target * scale.length, scale.unit)});
   panel.lines.push_back(fmt::format("from first {0:.6g},0 to first {0:.6g},{1:.6g} nohead lw 1 dt (2,3) lc rgb '{2}'",
                                     o.target * scale.length, height / standard_g, orange));
-  add_period(panel, o.period, fmt::format("T* = {:.3g} s", o.period), scale);
+  std::vector<PeriodLine> periods{{o.period, fmt::format("T* = {:.3g} s", o.period)}};
   const CornerPeriods corner = corner_periods(spectrum);
   for (const double period : {corner.end, corner.last})
-    if (period > 0 && std::fabs(period / o.period - 1) > 0.15) add_period(panel, period, fmt::format("{:.3g} s", period), scale);
+    if (period > 0 && std::fabs(period / o.period - 1) > 0.15) periods.push_back({period, fmt::format("{:.3g} s", period)});
+  add_periods(panel, std::move(periods), scale);
   return panel;
 }
 
@@ -106,9 +120,10 @@ plot::Figure performance_figure(const Performance& p, const DesignSpectrum& spec
   scale.x = 1.15 * length * scale.length, scale.y = 1.5 * acceleration / standard_g;  // room for the legend
   plot::Figure figure{.width = 1120, .height = 620};
   figure.labels.push_back({title, "screen 0.5,0.965", "center font ',15'"});
-  figure.labels.push_back({fmt::format("{}; shape at the {}, {} mass nodes, Gamma = {:.4g}", p.spectrum,
-                                       p.shape == "peak" ? "peak" : "first state under load", p.nodes.nodes, p.nodes.gamma),
-                           "screen 0.5,0.925", "center font ',12'"});
+  figure.labels.push_back(
+      {fmt::format("{}; shape at the {}, {} mass node{}, Gamma = {:.4g}", p.spectrum, p.shape == "peak" ? "peak" : "first state under load",
+                   p.nodes.nodes, p.nodes.nodes == 1 ? "" : "s", p.nodes.gamma),
+       "screen 0.5,0.925", "center font ',12'"});
   figure.settings = "set lmargin 10\nset rmargin 8\n";
   figure.panels.push_back(panel_of(figure, p, p.n2, spectrum, "N2, EN 1998-1 annex B: A = F*/m*", scale));
   figure.panels.push_back(panel_of(figure, p, p.mpp, spectrum, "mass-proportional pushover: A = V/M", scale));

@@ -133,12 +133,14 @@ plot::Figure drift_figure(const std::vector<DriftProfile>& profiles, const std::
   plot::Figure figure{980, height};
   figure.labels = {{names, fmt::format("screen 0.08,{:.4f}", 1 - 22 / height), "left font ',15' tc rgb '#111111' noenhanced"},
                    {note, fmt::format("screen 0.08,{:.4f}", 1 - 45 / height), "left font ',12' tc rgb '#555555' noenhanced"}};
+  double top = 0;  // m; of both panels, so that a height is at the same place
+  for (const DriftProfile& profile : profiles) top = std::max(top, profile.height.back());
   for (int kind = 0; kind < 2; ++kind) {
     plot::Panel p;
     p.axes = kind == 0 ? plot::Box{0.08, 0.40, 0.13, 0.87} : plot::Box{0.46, 0.78, 0.13, 0.87};
     p.x = {kind == 0 ? fmt::format("largest displacement [{}]", unit.name) : "largest drift [%]", "[0:*]",
            tics_to(kind == 0 ? peak * unit.factor : 100 * peak_drift)};
-    p.y = {kind == 0 ? "height above the support [m]" : "", "[0:*]"};
+    p.y = {kind == 0 ? "height above the support [m]" : "", fmt::format("[0:{:.6g}]", 1.05 * top)};
     if (kind == 1) p.key = "at graph 1.04,1 left top Left reverse samplen 3 spacing 1.1 noenhanced";
     for (std::size_t i = 0; i < profiles.size(); ++i)
       for (std::size_t axis = 0; axis < 2; ++axis) {

@@ -100,7 +100,7 @@ void draw_probability(const Sweep& sweep, const std::vector<Group>& groups, cons
   }
   panel.x = {shown.label(), fmt::format("[0:{}]", shown.factor * top), "", "", "noenhanced"};
   panel.y = {"probability of collapse", "[-0.02:1.02]"};
-  panel.key = "outside bottom center horizontal noenhanced";
+  panel.key = "outside bottom center horizontal height 1.6 noenhanced";
   figure.panels = {panel};
   plot::draw(figure, sweep.directory + "/fragility." + ending);
 }
@@ -176,8 +176,8 @@ void draw_curves(const Sweep& sweep, const std::vector<Group>& groups, const std
              "noenhanced"};
   panel.y = {shown.label(), fmt::format("[0:{}]", shown.factor * std::min(1.05 * highest(groups), 1.1 * highest_capacity(groups))), "", "",
              "noenhanced"};
-  panel.labels.push_back({"a case leaves to the right where it collapses", "graph 0.02, graph 0.96", "left font ',11' tc rgb '#666666'"});
-  panel.key = "outside bottom center horizontal noenhanced";
+  panel.labels.push_back({"a case leaves to the right where it collapses", "graph 0.98, graph 0.04", "right font ',11' tc rgb '#666666'"});
+  panel.key = "outside bottom center horizontal height 1.6 noenhanced";
   figure.panels = {panel};
   plot::draw(figure, sweep.directory + "/ida." + ending);
 }

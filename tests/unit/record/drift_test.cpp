@@ -100,5 +100,6 @@ TEST_CASE("the figure of drift has a panel for displacement and one for drift", 
   REQUIRE(figure.panels.size() == 2);
   CHECK(figure.panels[0].series.size() == 4);
   CHECK(figure.panels[1].x.label == "largest drift [%]");
+  CHECK(figure.panels[1].y.range == figure.panels[0].y.range);
   CHECK_THROWS_AS(drift_figure(std::vector<DriftProfile>(8, profile), ""), Error);
 }

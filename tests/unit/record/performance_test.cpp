@@ -215,6 +215,15 @@ TEST_CASE("a demand beyond the curve is a verdict", "[performance]") {
   CHECK(!performance_figure(p, en_b(5), "beyond").empty());
 }
 
+TEST_CASE("periods whose names would run into each other are named to either side", "[performance]") {
+  const Structure s = structure({1000}, {1}, 3000, 0.012, 0.3);  // T* = 0.397 s beside the corner at 0.5 s
+  const plot::Figure figure = performance_figure(performance_of(s.curve, s.shape, demand_of(2)), en_b(2), "close");
+  std::vector<std::string> looks;
+  for (const plot::Label& label : figure.panels.front().labels)
+    if (label.text.starts_with("T* =") || label.text == "0.5 s") looks.push_back(label.look.substr(0, label.look.find(' ')));
+  CHECK(looks == std::vector<std::string>{"right", "left"});
+}
+
 TEST_CASE("a target where a push has leapt over all states is refused", "[performance]") {
   const double mass = 1000, T = 0.8;
   const double yield = spectral_acceleration(en_b(2), T) / 2.5, at_yield = yield * std::pow(T / (2 * pi), 2);
