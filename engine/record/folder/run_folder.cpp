@@ -76,11 +76,10 @@ std::string run_file(const std::string& dir, const std::string& name) { return (
 
 bool is_run_folder(const std::string& dir) {
   std::error_code failed;
-  if (!fs::is_regular_file(run_file(dir, "manifest.json"), failed)) return false;
   try {
     const Json json = read_json(run_file(dir, "manifest.json"));
     if (json.is_object() && json.contains("program")) return json["program"] == "erbs";
-  } catch (const std::exception&) {}  // damaged; the other files decide
+  } catch (const std::exception&) {}  // damaged or gone; the other files decide
   const auto there = [&](const char* name) { return fs::is_regular_file(run_file(dir, name), failed); };
   return there("scene.lua") && (there("checkpoint.bin") || there("energy.csv") || there("motion.h5"));
 }
@@ -113,7 +112,8 @@ void check_run_folder(const std::string& dir, Existing existing) {
       if (there && !fs::is_directory(dir)) throw Error(fmt::format("\"{}\" is no folder; choose another with -o DIR", dir));
       if (there && !fs::is_empty(dir) && !is_run_folder(dir))
         throw Error(
-            fmt::format("\"{}\" is no run folder (it has no manifest.json of erbs) and is left alone, --force or not; choose another "
+            fmt::format("\"{}\" is no run folder (it has neither a manifest.json of erbs nor scene.lua beside results) and is left alone, "
+                        "--force or not; choose another "
                         "with -o DIR",
                         dir));
       return;

@@ -20,7 +20,7 @@ void check_run_folder(const std::string& dir, Existing existing);
 // and only those. With resume, writes only the manifest.
 void create_run_folder(const std::string& dir, Existing existing, const std::string& script, const Manifest& manifest);
 
-// True if the manifest.json there is one of erbs. A damaged manifest counts if other files of a run are present.
+// True if the manifest.json there is one of erbs. A manifest that is damaged or gone counts if other files of a run are present.
 bool is_run_folder(const std::string& dir);
 
 // Reserves a folder for one run by a lock of the operating system. The lock ends with the process, however it ends.

@@ -99,6 +99,21 @@ TEST_CASE("force empties a run folder of its own files only", "[record][run_fold
   CHECK(is_run_folder(dir));
 }
 
+TEST_CASE("a run folder that has lost its manifest can be resumed, which writes it anew, or overwritten", "[record][run_folder]") {
+  const test::Scratch scratch("lost");
+  const std::string dir = scratch.path;
+  for (const Existing existing : {Existing::resume, Existing::force}) {
+    make(dir, Existing::force);
+    std::ofstream(dir + "/checkpoint.bin") << "x";
+    fs::remove(dir + "/manifest.json");
+    CHECK_NOTHROW(make(dir, existing));
+    CHECK(read_manifest(dir).title == "A wall");
+  }
+  fs::rename(dir + "/manifest.json", dir + "/notes.txt");
+  fs::remove(dir + "/scene.lua");
+  CHECK_THROWS_WITH(make(dir, Existing::force), Catch::Contains("no run folder"));
+}
+
 TEST_CASE("force removes films, comparisons and exports of the former run, and nothing of the user", "[record][run_folder]") {
   const test::Scratch scratch("films");
   const std::string dir = scratch.path;
