@@ -24,6 +24,7 @@ Fragility fragility_of(const Group& group, const std::string& method, const Show
   out.words = words(out.fit, im.unit, im.factor);
   const auto say = [&](const std::string& what) { out.words += (out.words.empty() ? "" : "; ") + what; };
   if (group.left_out > 0) say(fmt::format("{} runs without an answer are left out", group.left_out));
+  if (group.unshaken > 0) say(fmt::format("{} runs at intensity 0 have no part in the fit, which is 0 there", group.unshaken));
   if (method == "runs" && group.incremental()) say("runs of one case are not independent, so that the bands are too narrow");
   if (method == "capacities" && out.fit.end == FitEnd::fitted && out.fit.observations < 20)
     say(fmt::format("{} cases are few: bands of 95 % hold some 91 %", out.fit.observations));

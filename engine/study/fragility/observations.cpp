@@ -106,7 +106,7 @@ std::vector<Group> read_groups(const Sweep& sweep) {
   const FragilityPlan& wanted = *sweep.plan.fragility;
   const Columns at = columns_of(sweep);
   std::map<std::string, std::map<std::string, std::map<double, Run>>> sorted;  // by group, case, intensity
-  std::map<std::string, int> left_out;
+  std::map<std::string, int> left_out, unshaken;
   std::ifstream file(sweep.directory + "/" + runs_file);
   std::string line;
   std::getline(file, line);
@@ -120,7 +120,7 @@ std::vector<Group> read_groups(const Sweep& sweep) {
     const double im = number_of(cells[at.im]), collapse = number_of(cells[at.collapse]);
     auto& cases = sorted[group];
     if (cells[at.status] != "completed" || !(im > 0) || std::isnan(collapse)) {
-      ++left_out[group];
+      ++(im == 0 ? unshaken : left_out)[group];
       continue;
     }
     Run run{im, wanted.above ? collapse > *wanted.above : collapse != 0, {}};
@@ -131,7 +131,7 @@ std::vector<Group> read_groups(const Sweep& sweep) {
   }
   std::vector<Group> out;
   for (auto& [name, cases] : sorted) {
-    Group group{name, {}, left_out[name]};
+    Group group{name, {}, left_out[name], unshaken[name]};
     for (auto& [of_case, runs] : cases) {
       group.cases.push_back({of_case, {}});
       for (auto& [im, run] : runs) group.cases.back().runs.push_back(std::move(run));

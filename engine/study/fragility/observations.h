@@ -31,6 +31,7 @@ struct Group {
   std::string name;  // values of FragilityPlan::by; "" without
   std::vector<Case> cases;
   int left_out = 0;  // runs without an answer
+  int unshaken = 0;  // runs at intensity zero, where the probability is zero by any fit
   std::vector<Interval> single_runs() const;
   std::vector<Interval> capacities() const;
   bool incremental() const;  // some case has several runs

@@ -89,6 +89,13 @@ TEST_CASE("a study without a collapse says so in words", "[sweep][fragility]") {
   CHECK_THAT(text, Catch::Contains("no collapse") && Catch::Contains("raise the intensities") && !Catch::Contains("nan"));
 }
 
+TEST_CASE("runs at intensity zero are no runs without an answer", "[sweep][fragility]") {
+  Study study;
+  REQUIRE(study.sweep(R"(study{ scene = "tiny.lua", keep = "none", vary = { grid{ seed = { 1, 6, 12 }, pga = { 0, 1, 1.9 } } },
+    fragility = { im = "pga", collapse = "metrics.fell" } })") == 0);
+  CHECK_THAT(study.tables(), Catch::Contains("3 runs at intensity 0 have no part in the fit") && !Catch::Contains("without an answer"));
+}
+
 TEST_CASE("perturbations give each run its own noise, the same in every study", "[sweep][fragility]") {
   Study study;
   study.write("tiny.lua", R"(material{ name = "stone", density = 2000 }
