@@ -66,7 +66,7 @@ class Calibrator {
       Row row;
       for (const std::string& name : s_.collected) row.got.push_back(table.column(name)[i]);
       row.reason = text("reason", i), row.sound = text("status", i) == "completed" && row.reason.empty();
-      ++out_.runs, failed_ += !row.sound;
+      count(row);
       known_[values] = std::move(row);
     }
     return out_.runs;
@@ -98,7 +98,7 @@ class Calibrator {
     }
     if (interrupted()) throw Interrupted{};
     for (const std::size_t i : waiting) note(all[i], rows[i]);
-    if (s_.progress) s_.progress({.points = 0, .done = out_.runs, .failed = failed_, .runs = out_.runs});
+    if (s_.progress) s_.progress({.points = 0, .done = out_.runs, .failed = out_.discarded, .runs = out_.runs});
     std::vector<Row> answers;
     for (const Values& values : all) answers.push_back(known_.at(values));
     return answers;
@@ -117,7 +117,7 @@ class Calibrator {
       row.got.push_back(number ? value : NAN);
       if (!number && row.sound) row.sound = false, row.reason = fmt::format("{} has no number in this run", keys_[row.got.size() - 1]);
     }
-    ++out_.runs, failed_ += !row.sound;
+    count(row);
     std::vector<std::string> cells{fmt::format("{}", out_.runs), fmt::format("{}", stage_)};
     for (const std::string& param : varied_params(s_.plan))
       cells.push_back(values.contains(param) ? fmt::format("{}", values.at(param)) : "nan");
@@ -127,6 +127,13 @@ class Calibrator {
     table_.text_row(cells);
     table_.flush();
     known_[values] = std::move(row);
+  }
+
+  void count(const Row& row) {
+    ++out_.runs;
+    if (row.sound) return;
+    ++out_.discarded;
+    if (out_.first_discarded.empty()) out_.first_discarded = fmt::format("run {}: {}", out_.runs, row.reason);
   }
 
   double got(const Row& row, const std::string& key) const {
@@ -235,7 +242,7 @@ class Calibrator {
   std::map<Values, Row> known_;
   Values fitted_;
   Calibrated out_;
-  int stage_ = 0, failed_ = 0;
+  int stage_ = 0;
 };
 
 }  // namespace

@@ -26,7 +26,8 @@ struct Calibrated {
   std::vector<std::pair<std::string, double>> values;  // fitted params, the last word of each
   std::vector<double> got, got_before;                 // the targets in their order, with the fitted params and as the scene is written
   double rms = 0, rms_before = 0;                      // NaN: that run has no answer
-  int runs = 0;
+  int runs = 0, discarded = 0;                         // discarded: they do not give all targets
+  std::string first_discarded;                         // "run 3: diverged: ..."
   bool interrupted = false;
 };
 

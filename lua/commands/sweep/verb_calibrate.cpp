@@ -155,6 +155,9 @@ int verb_calibrate(const CalibrateCommand& command) {
   }
   write_json(sweep.directory + "/" + study::calibration_file, json_of(sweep, result));
   draw(sweep, result);
+  if (result.discarded > 0)
+    tell(stderr, fmt::format("warning: {} of {} runs do not give all targets and are left out of the fit; the first, {}; see {}/{}",
+                             result.discarded, result.runs, result.first_discarded, sweep.directory, study::calibration_table));
   if (quiet) return exit_ok;
   say("{}: {} runs in {}\n", study.name, result.runs, duration_text(wall));
   for (std::size_t i = 0; i < result.stages.size(); ++i) print_stage(sweep, i, result.stages[i]);

@@ -76,6 +76,14 @@ TEST_CASE("a calibration finds the params of known values, stage by stage, and d
   CHECK_THAT(bench.said, Catch::Contains("moves no target"));
 }
 
+TEST_CASE("a calibration says which runs it leaves out, and why", "[calibrate]") {
+  Calibration bench;
+  bench.write("tiny.lua", tiny + "if a > 4 then error('no wall is so high') end\n");
+  REQUIRE(bench.calibrate(study_of("{ fit = { a = { .1, 10 } } }"), {"-D", "b=.4"}) == 0);
+  CHECK_THAT(bench.said, Catch::Contains("do not give all targets and are left out") && Catch::Contains("no wall is so high") &&
+                             Catch::Contains("calibration.csv"));
+}
+
 TEST_CASE("two calibrations do not share a folder", "[calibrate]") {
   Calibration bench;
   const std::string study = study_of("{ fit = { a = { .1, 10, log = true }, b = { 0, 2 } } }");
