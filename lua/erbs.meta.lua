@@ -468,8 +468,8 @@ function turning(keys) end
 
 ---@class erbs.gravity_keys
 ---@field [1] number along x (or the one number: downwards) [m/s2; -1000 to 1000]
----@field 2 number along y [m/s2; -1000 to 1000]
----@field 3 number along z [m/s2; -1000 to 1000]
+---@field [2] number along y [m/s2; -1000 to 1000]
+---@field [3] number along z [m/s2; -1000 to 1000]
 
 ---Gravity as gravity(9.81), downwards, or gravity{ 0, 0, -9.81 }.
 ---@param keys erbs.gravity_keys

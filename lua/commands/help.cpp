@@ -90,9 +90,13 @@ std::string shown_type(const Key& key) {
   return key.type;
 }
 
+// A position in a list stands in brackets.
+std::string shown_name(const Key& key) {
+  return key.name.find_first_not_of("0123456789") == std::string::npos ? "[" + key.name + "]" : key.name;
+}
+
 std::string line_of(const Key& key, size_t name_width, size_t type_width) {
-  const std::string name = key.name == "1" ? "[1]" : key.name;
-  std::string line = fmt::format("  {:<{}}  {:<{}}  {}", name, name_width, shown_type(key), type_width, key.text);
+  std::string line = fmt::format("  {:<{}}  {:<{}}  {}", shown_name(key), name_width, shown_type(key), type_width, key.text);
   const std::string more = facts(key);
   if (!more.empty()) line += fmt::format(" ({})", more);
   return line + "\n";
@@ -230,8 +234,7 @@ std::string editor_text(const Key& key) {
 std::string editor_fields(const Keys& keys) {
   std::string text;
   for (const Key& key : keys)
-    text += fmt::format("---@field {}{} {} {}\n", key.name == "1" ? "[1]" : key.name, key.required ? "" : "?", editor_type(key),
-                        editor_text(key));
+    text += fmt::format("---@field {}{} {} {}\n", shown_name(key), key.required ? "" : "?", editor_type(key), editor_text(key));
   return text;
 }
 
