@@ -194,7 +194,9 @@ void add_others(CLI::App& app, CommandLine& line) {
   record.add_option("FILE", line.record.words, "PEER AT2, ESM, COSMOS or CSMIP V2, CSV or text of columns")->required();
   add_output(record, line.record.output, "runs/<file name>");
   record.add_option("--dt", line.record.record.dt, "time step of a file that has values only, s")->check(within(1e-6, 1e3));
-  record.add_option("--unit", line.record.record.unit, "unit of the values, if the file does not give one: g, m/s2, cm/s2, gal, ...");
+  record.add_option(
+      "--unit", line.record.record.unit,
+      "unit of the values, if the file does not give one: g, mg, m/s2, cm/s2, gal, mm/s2, ft/s2, in/s2; m/s, ... or m, ... by quantity");
   record.add_option("--column", line.record.record.column, "column of the values, from 1")->check(within(1, 1000));
   record.add_option("--decimal", line.record.record.decimal, "decimal mark of the file (default: auto)")
       ->check(CLI::IsMember({"auto", "point", "comma"}));
