@@ -8,6 +8,7 @@
 #include "engine/base/spelling.h"
 #include "engine/base/text.h"
 #include "engine/loads/earlier.h"
+#include "lua/language/api.h"
 #include "lua/reading/quality.h"
 
 namespace erbs::lua {
@@ -17,9 +18,8 @@ constexpr std::string_view quality_is = "quality=";
 
 // Sets a number or a word of a field list; false if it has no such key.
 template <class T>
-bool set_field(T& values, const std::string& key, const std::string& value, const std::string& setting, std::vector<std::string>& known) {
+bool set_field(T& values, const std::string& key, const std::string& value, const std::string& setting) {
   for (const auto& field : T::fields()) {
-    known.emplace_back(field.name);
     if (field.name != key) continue;
     std::visit(
         [&](auto member) {
@@ -54,12 +54,18 @@ bool set_field(T& values, const std::string& key, const std::string& value, cons
 void set_analysis(Scene& scene, const std::string& setting) {
   const size_t equals = setting.find('=');
   const std::string key = setting.substr(0, equals), value = equals == std::string::npos ? "" : setting.substr(equals + 1);
-  std::vector<std::string> known{"quality"};
-  if (set_field(scene.analysis, key, value, setting, known)) return;
-  if (!set_field(scene.push, key, value, setting, known))
-    throw Error(fmt::format("--set {}: analysis has no key \"{}\"{}", setting, key, did_you_mean(key, known)));
-  if (!scene.push.quasi_static() && key != "kind")
-    throw Error(fmt::format("--set {}: \"{}\" belongs to a push; the scene has none", setting, key), scene.analysis.place);
+  if (set_field(scene.analysis, key, value, setting)) return;
+  if (set_field(scene.push, key, value, setting)) {
+    if (!scene.push.quasi_static() && key != "kind")
+      throw Error(fmt::format("--set {}: \"{}\" belongs to a push; the scene has none", setting, key), scene.analysis.place);
+    return;
+  }
+  std::vector<std::string> known;
+  for (const Key& one : find_function("analysis")->keys) known.push_back(one.name);
+  if (std::ranges::find(known, key) != known.end())
+    throw Error(fmt::format("--set {}: {} may be a table, and --set takes numbers and words alone; write it into analysis{{}} of the scene",
+                            setting, key));
+  throw Error(fmt::format("--set {}: analysis has no key \"{}\"{}", setting, key, did_you_mean(key, known)));
 }
 
 // Multiplies every stiffness of a joint rule, whatever its law.

@@ -284,11 +284,14 @@ TEST_CASE("options out of range are refused before anything is written", "[bad_i
     CHECK_FALSE(fs::exists(bench.out()));
   }
   const std::string push = pier.substr(0, pier.find("analysis")) + "analysis{ kind = 'pushover', up_to = .02, limit = 'never' }\n";
-  const std::pair<std::vector<std::string>, std::string> of_push[] = {{{"--from", "1"}, "--from is a time, and a push has none"},
-                                                                      {{"--until", "1"}, "--until is a time, and a push has none"},
-                                                                      {{"--set", "bracket=2"}, "must be a number from 1e-06 to 0.5"},
-                                                                      {{"--set", "step=5"}, "step = 5 is beyond up_to = 0.02"},
-                                                                      {{"--set", "brackt=0.1"}, "did you mean \"bracket\"?"}};
+  const std::pair<std::vector<std::string>, std::string> of_push[] = {
+      {{"--from", "1"}, "--from is a time, and a push has none"},
+      {{"--until", "1"}, "--until is a time, and a push has none"},
+      {{"--set", "bracket=2"}, "must be a number from 1e-06 to 0.5"},
+      {{"--set", "step=5"}, "step = 5 is beyond up_to = 0.02"},
+      {{"--set", "patern=3"}, "did you mean \"pattern\"?"},
+      {{"--set", "path=3"}, "path may be a table, and --set takes numbers and words alone"},
+      {{"--set", "brackt=0.1"}, "did you mean \"bracket\"?"}};
   for (const auto& [words, message] : of_push) {
     CHECK(bench.run(push, words) == 2);
     INFO(bench.said);
