@@ -5,12 +5,12 @@
 #include <cmath>
 #include <optional>
 
-#include "engine/analysis/columns.h"
 #include "engine/base/random.h"
 #include "engine/base/units.h"
 #include "engine/contact/overlap/shape.h"
 #include "engine/joints/kinematics.h"
 #include "engine/model/build/add_joints.h"
+#include "engine/model/columns.h"
 #include "engine/solve/blocks/islands.h"
 #include "engine/solve/step.h"
 
@@ -215,7 +215,8 @@ Prepared prepare(const Scene& scene, bool allow_unstable) {
   std::vector<double> bounds = p.bounds.of_block;
   for (int b = 0; b < p.model.nblock; ++b)
     if (!std::isfinite(bounds[z(b)])) bounds[z(b)] = debris_bound(p.model, b);
-  p.model.hop = hops_of(p.model, p.state, bounds);
+  p.model.settles = settlements(p.model, bounds);
+  set_hops(p.model, p.state);
   choose_dt(scene, p, allow_unstable);
   if (!allow_unstable) hold_use_limit(scene, p);
   return p;

@@ -49,8 +49,8 @@ void joint_by_points(const Model& m, State& s, int j, const double faces[6], dou
   JointEnergy e;
   const Joint& joint = m.joint[z(j)];
   JointPast past = past_of(m, s, j);
-  if (const Hop hop = hop_between(m, joint.a, joint.b); !intact && m.laws[z(joint.type->law)].interlock)
-    past.interlock = scalar::interlock_of(interlock_step(m, s), hop.time, hop.loan);
+  if (!intact && m.laws[z(joint.type->law)].interlock)
+    past.interlock = scalar::interlock_of(interlock_step(m, s), joint.hop.time, joint.hop.loan);
   std::vector<PointHistory> before_it;
   const bool damped = joint.viscous_cracked > 0 && !intact;
   if (damped) before_it.assign(past.point, past.point + joint.type->points);

@@ -79,7 +79,7 @@ ERBS_INLINE Interlock<T> interlock_of(const InterlockStep& step, T hop_time, T h
   return {interlock_gap * step.gravity * hop_time * hop_time,
           way * way,
           hop_loan,
-          updates ? step.since / (step.since + interlock_time * hop_time) : T(0),
+          updates ? select(hop_time > 0, step.since / (step.since + interlock_time * hop_time), T(0)) : T(0),
           step.dt,
           updates};
 }

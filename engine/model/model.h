@@ -44,6 +44,7 @@ struct Joint {
   double viscous = 0;          // s, dashpot coefficient b of the intact joint, c = b k
   double viscous_cracked = 0;  // s, the same of the cracked joint
   double gap = 0;              // m, between the faces at rest
+  Hop hop;                     // laws/interlock.h
 };
 
 // A contact point in the joint frame: position and share of the area.
@@ -118,7 +119,7 @@ struct Model {
   std::vector<Ground> grounds;
   std::vector<Tilt> tilts;
   Vec3 gravity = Vec3::Zero();  // m/s2
-  std::vector<Hop> hop;         // of the column through each block (laws/interlock.h) [nblock]; empty: no interlock
+  std::vector<double> settles;  // m, of each block on its own bed (model/columns.h) [nblock]; empty: no interlock
   Damping damping;
   double local_damping = 0;  // share of the unbalanced force that brakes a block (Cundall 1987); for relaxations only
   // Of the weight of the lighter block: joined neighbours that meet along an edge are no contact before it could bear this.
@@ -152,12 +153,5 @@ struct Model {
     return block_name[std::size_t(one.a)] + " | " + block_name[std::size_t(one.b)] + (number > 1 ? " #" + std::to_string(number) : "");
   }
 };
-
-// Of a joint or a contact of two blocks: the longer column counts.
-inline Hop hop_between(const Model& model, int a, int b) {
-  if (model.hop.empty()) return {};
-  const Hop &of_a = model.hop[std::size_t(a)], &of_b = model.hop[std::size_t(b)];
-  return of_a.time > of_b.time ? of_a : of_b;
-}
 
 }  // namespace erbs

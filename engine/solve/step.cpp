@@ -20,6 +20,7 @@ constexpr int balance_every = 32;    // steps between two changes of the shares 
 constexpr int timed_every = 5;       // ... and between two whose time is taken for them: no multiple of the steps in a macro step
 constexpr int regroup_every = 256;   // steps between two orderings of cracked joints in their packs
 constexpr int activate_every = 256;  // steps between two searches for blocks that have moved far
+constexpr int columns_every = 64;    // steps between two searches for the columns of blocks in contact
 std::size_t z(int i) { return std::size_t(i); }
 
 // s, between two calls that are due `every()` so many steps.
@@ -101,6 +102,7 @@ void Solver::prepare_step(const SamplePlan& plan) {
   has_transitions_ = has_contacts_ || time.step == 0 || (debris && cracked && every(model_.release_every, time));
   if (has_contacts_ && together) contacts_.prepare(budget_);
   else if (has_contacts_) contacts_.prepare_substep();
+  if (has_contacts_ && every(columns_every, time)) contacts_.find_columns();
   if (has_contacts_ && contact_wrench_.empty()) {
     contact_wrench_.assign(constants_.size() * pack_size, 0.0);
     if (may_have_levels_) contact_kick_ = contact_wrench_;

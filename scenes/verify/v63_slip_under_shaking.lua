@@ -5,7 +5,7 @@
 -- Source         Coulomb, Newmark 1965 (Geotechnique 15, 139): it slips while mu (g cos b + a(t)) < g sin b, until it rests again
 -- How to run     erbs run scenes/verify/v63_slip_under_shaking.lua [-D joint=0] [-D above=20] [-D frequency=5]
 -- What to look at  metrics.slip_over_paper: .25 with the tower, .10 with the brick in place of 1 while all blocks of a scene had one scale
---                of interlock (engine/analysis/columns.h), 4e-6 without joint. Outside the family, softer beds slip too little: .93 at
+--                of interlock (engine/model/columns.h), 4e-6 without joint. Outside the family, softer beds slip too little: .93 at
 --                1e9 Pa/m and 10 Hz. There the loan of friction is no longer short beside the half period (engine/laws/interlock.h).
 local mu, share = param("mu", 0.6), param("share", 0.6, "tangent of the slope over mu")
 local kn, joint_ = param("kn", 1e11, "[Pa/m]"), param("joint", 1, "1: on a dry bed; 0: a contact alone")

@@ -171,11 +171,11 @@ Relaxation::Relaxation(const PushSettings& push, const std::vector<std::string>&
     : push_(push), run_(run), crew_(threads), model_(run.model), loads_(push, groups, model_), monitor_(push, run.model) {
   true_dt_ = dt_ = run.state.time.dt;
   // Nothing hops on the way to equilibrium. The mean pressure of the interlock would hold unloading beds for seconds, thousands of steps.
-  model_.hop.clear();
+  model_.settles.clear();
   model_.edge_force = edge_force;
   model_.crushed_beds_remain = true;
   // Nor do dashpots act at rest. A step bounded by them would make motions of the coarse inertia, which knows springs only, unstable.
-  for (Joint& joint : model_.joint) joint.viscous = joint.viscous_cracked = 0;
+  for (Joint& joint : model_.joint) joint.viscous = joint.viscous_cracked = 0, joint.hop = {};
   model_.dashpots = model_.dashpots_cracked = false;
   range_ = run.range;
   if (std::isfinite(run.bounds.critical)) {

@@ -129,6 +129,7 @@ static void trial_forces(PairPackFor<T>& w, const PairSettings& set) {
   // upper bound for any direction of slip
   const T inverse_mass =
       load<T>(w.r[b_mass]) + load<T>(w.o[b_mass]) + dot(centre, centre) * load<T>(w.r[b_inertia]) + dot(x, x) * load<T>(w.o[b_inertia]);
+  // The dashpot of a blow presses before the springs have wound up. One in the same form along the face keeps the ratio of both.
   const T of_blow = load<T>(w.p[p_ks]) * load<T>(w.total) * load<T>(w.chi);
   T ct = 2 * set.settling_tangential * sqrt(kt / nonzero(inverse_mass)) + of_blow;
   if (set.dt > 0) ct = min(ct, 0.25 / (nonzero(inverse_mass) * set.dt));

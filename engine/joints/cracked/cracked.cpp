@@ -107,8 +107,7 @@ void Cracked::fill(Group& group, int l, int j) {
   CrackedPack& lane = memory_of(group);
   group.joint[l] = j;
   lane.viscous[l] = joint.viscous_cracked;
-  const Hop hop = hop_between(model_, joint.a, joint.b);
-  lane.hop_time[l] = hop.time, lane.hop_loan[l] = hop.loan;
+  lane.hop_time[l] = joint.hop.time, lane.hop_loan[l] = joint.hop.loan;
   set_share(lane, l, j);
   group.used |= 1U << l;
   group.maybe_out_of_range = true;

@@ -73,9 +73,7 @@ Mat3 ContactBodies::rotation_of(int b) const {
 }
 
 PairLaw ContactBodies::law(int a, int b) const {
-  PairLaw law = pair_law(model.materials[z(model.material[z(a)])], model.materials[z(model.material[z(b)])]);
-  law.hop = hop_between(model, a, b);
-  return law;
+  return pair_law(model.materials[z(model.material[z(a)])], model.materials[z(model.material[z(b)])]);
 }
 
 bool ContactBodies::were_joined(int a, int b) const {

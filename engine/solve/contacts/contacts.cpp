@@ -9,6 +9,7 @@
 #include "engine/contact/broad/search.h"
 #include "engine/joints/event_bound.h"
 #include "engine/model/build/add_joints.h"
+#include "engine/model/columns.h"
 #include "engine/model/levels.h"
 
 namespace erbs {
@@ -100,6 +101,20 @@ void Contacts::prepare(double budget) {
   if (!state_.contacts.list.valid || due) update();
   if (unsorted_) sort();
   forces_.prepare();
+}
+
+void Contacts::find_columns() {
+  std::vector<ContactPair>& pairs = state_.contacts.list.pair;
+  const auto lasts = [](const ContactPair& p) { return p.touching != 0 || p.mean_normal_force > 0; };  // hops of a trembling column
+  const auto lies = [&](const ContactPair& p) {
+    return lie_on_each_other(model_, bodies_.block[z(p.b_is_reference ? p.b : p.a)].rotation * p.n);
+  };
+  Columns columns(model_, state_);
+  for (const ContactPair& p : pairs)
+    if (lasts(p) && lies(p)) columns.link(p.a, p.b);
+  columns.find();
+  for (ContactPair& p : pairs)
+    if (lasts(p)) p.law.hop = lies(p) ? columns.through(p.a, p.b) : columns.beside(p.a, p.b);
 }
 
 void Contacts::prepare_substep() {

@@ -31,6 +31,7 @@ class Contacts {
   // Before the forces of a step: the remaining poses, and every few steps the check whether a new search is necessary. `budget`: J, of
   // events (`event_bound.h`).
   void prepare(double budget);
+  void find_columns();  // sets the scale of interlock of all pairs that touch (model/columns.h)
   // The same within a macro step (model/levels.h): the list of pairs stays.
   void prepare_substep();
   // Forces of this thread's pairs.

@@ -191,6 +191,7 @@ void FormerJoints::release_pair(std::span<const int> joints) {
   pair.law.kn = share.n * joint_law.kn;
   pair.law.ks = share.s * joint_law.ks;
   pair.law.mu = joint_law.mu_residual;
+  pair.law.hop = one.hop;
   const ContactBlock &a = bodies_.block[z(pair.a)], &b = bodies_.block[z(pair.b)];
   if (!uplift.isZero(0)) pair.lift = pair.b_is_reference ? Vec3(b.rotation.transpose() * uplift) : Vec3(-(a.rotation.transpose() * uplift));
   note_release(joints.front(), stored - release_to_contact(pair, bodies_.shapes, a, b, wrench, stored, most, room_));

@@ -152,48 +152,6 @@ TEST_CASE("a limit of use is held: a coarser step or fewer points are refused wi
   CHECK_THROWS_WITH(prepare(scene, false), Catch::Contains("good from 1000 on"));
 }
 
-TEST_CASE("a column hops by its own height and beds, whatever hangs in the air, stands beside or leans on it", "[analysis][interlock]") {
-  const auto hop = [](const std::string& more) {
-    Script script(quiet());
-    const Scene scene = script.load_text(
-        "material{ name = 'stone', density = 1800, kn = 1e10, ks = 4e9 }\nanalysis{ duration = 1 }\n"
-        "box{ name = 'base', group = 'base', size = {20, 20, .2}, at = {-10, -10, -.2}, fixed = true, material = 'stone' }\n"
-        "for k = 0, 3 do box{ name = 'p' .. k, group = 'pier', size = {.3, .2, .1}, at = {0, 0, .1 * k}, material = 'stone' } end\n"
-        "joint{ between = {'base', 'pier'}, law = dry{ kn = 1e10, mu = .6 } }\n"
-        "joint{ between = {'pier', 'pier'}, law = dry{ kn = 1e10, mu = .6 } }\n" +
-            more,
-        "scene.lua");
-    const Prepared run = prepare(scene, false);
-    const auto of = [&](const std::string& name) {
-      const auto& names = run.model.block_name;
-      const auto at = std::ranges::find(names, name);
-      return at == names.end() ? Hop{} : run.model.hop[std::size_t(at - names.begin())];
-    };
-    return std::pair(of("p1"), of("q1"));
-  };
-  const auto brick = [](int k, double x, double z, const std::string& keys) {
-    return fmt::format("box{{ name = 'q{}', size = {{.3, .2, .1}}, at = {{{}, 0, {}}}, {} }}\n", k, x, z, keys);
-  };
-  const std::string loose = "group = 'loose', free = true, material = 'stone'";
-  const Hop alone = hop("").first, one = hop(brick(1, 5, 8, loose)).second;
-  REQUIRE(alone.time > 0);
-  CHECK(alone.loan == Approx(4 * alone.time));
-  REQUIRE(one.time > 0);
-  CHECK(one.loan == one.time);
-  std::string stack, apart, tower, stiff = "material{ name = 'steel', density = 7800, kn = 1e14, ks = 4e13 }\n";
-  for (int k = 0; k < 12; ++k) {
-    stack += brick(k, 5, 0.1 * k, loose), apart += brick(k, 5, 1 + 0.15 * k, loose);
-    tower += brick(k, 0.3, 0.1 * k, "group = 'pier', material = 'stone'");  // joined to the pier along its side
-  }
-  for (const std::string& more : {brick(1, 5, 8, loose), stack, apart, stiff + brick(1, 5, 0, "free = true, material = 'steel'")})
-    CHECK(hop(more).first.time == alone.time);
-  CHECK(hop(stack).second.time == Approx(one.time * std::sqrt(12 * 13 / 2)));
-  CHECK(hop(apart).second.time == Approx(one.time));
-  const auto [beside, high] = hop(tower);
-  CHECK(beside.loan == Approx(4 * beside.time));
-  CHECK(high.loan == Approx(interlock_loan * high.time));
-}
-
 TEST_CASE("a ground that stays still is told", "[analysis]") {
   const auto told = [](const std::string& wave) {
     return mentions(prepare(test::small_wall("analysis{duration=1} ground_motion{ wave = " + wave + ", direction = 'x' }"), false).warnings,
