@@ -41,6 +41,7 @@ Columns::Columns(const Model& m, const State& s) : model_(m) {
 Columns::Link Columns::ordered(int a, int b) const { return height_[z(a)] < height_[z(b)] ? Link{a, b} : Link{b, a}; }
 
 void Columns::link(int a, int b) {
+  if (height_.empty()) return;
   const auto moves = [&](int k) { return model_.kind[z(k)] == Kind::moving; };
   if (moves(a) && moves(b) && height_[z(a)] != height_[z(b)]) links_.push_back(ordered(a, b));
 }

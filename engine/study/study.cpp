@@ -60,9 +60,8 @@ StudyResult converge(const Study& s, const RunAll& runs) {
     x /= double(points.size()), y /= double(points.size());
     for (const auto& [u, v] : points) xx += (u - x) * (u - x), xy += (u - x) * (v - y);
     slope = xy / xx;
-  } else {
-    out.trouble = "fewer than two errors above zero";
-    if (tally.failed > 0) out.trouble += ": " + first_reason(answers);
+  } else if (tally.failed > 0) {  // where all agree, or two values are asked for, there is no slope to find
+    out.trouble = "fewer than two errors above zero: " + first_reason(answers);
   }
   out.metrics = {{s.name + "_slope", slope}, {s.name + "_error", best},      {s.name + "_least", least},
                  {s.name + "_most", most},   {s.name + "_runs", tally.runs}, {s.name + "_failed", tally.failed}};

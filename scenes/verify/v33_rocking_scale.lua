@@ -48,8 +48,9 @@ metric("difference", "alpha", difference)
 metric("time_ratio", "", function(run) return large.impacts(run)[1] / small.impacts(run)[1] / stretch end)
 metric("falls_ratio", "", function(run) return run.metrics.metrics.falls_1 / run.metrics.metrics.falls_2 end)
 expect("metrics.falls_ratio", 1, { rel = 0.005, source = "the same amplitude at the same omega / p" })
--- 0.5 %: the steps of the two are not in the ratio of their times.
-expect("metrics.difference", 0.005, { below = true, source = "scale" })
+-- 1.5 %: the reference speed and the memory of a blow do not scale with the block, and an amplitude near the one that overturns magnifies
+-- it: .9 % of alpha at share = .97, .4 % at .9, .1 % at .7, at any step.
+expect("metrics.difference", 0.015, { below = true, source = "scale" })
 expect("metrics.time_ratio", 1, { rel = 0.005, source = "sqrt(scale)" })
 -- A faster pulse comes closer to the edge: a finer step.
 analysis { duration = duration, start = "rest", dt = param("dt", math.min(5e-5, 7.5e-5 / w)), output_dt = 4e-3, frame_dt = 0.05 }
