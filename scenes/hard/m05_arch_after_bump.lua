@@ -15,15 +15,8 @@ local made = arch { name = "arch", radius = radius, thickness = thickness * radi
 joint { law = dry { kn = kn, mu = mu } }
 ground_motion { wave = half_sine { amplitude = sideways == 1 and 0.2 * amplitude or -amplitude, frequency = 10, start = 0.1 }, direction = sideways == 1 and "x" or "z" }
 for _, name in ipairs(made.blocks) do recorder { name = name, quantity = "displacement", block = name } end
-local walk = include "parts/walk.lua"
-metric("drift", "1/s", function(run)
-  local most = 0
-  for _, name in ipairs(made.blocks) do
-    local speed, stops = walk(run, name, 0.5)
-    if not stops then most = math.max(most, speed) end
-  end
-  return most / radius
-end)
+local drift = include "parts/walk.lua"
+metric("drift", "1/s", function(run) return drift(run, made.blocks, 0.5) / radius end)
 metric("sag", "m", function(run) return -run.last(made.blocks[math.ceil(voussoirs / 2)] .. "_uz_rel_m") end)
 analysis { duration = 0.15 + rest, output_dt = 5e-3, frame_dt = 1 }
 expect("collapse.collapsed", false)

@@ -77,18 +77,9 @@ local function swing(run)  -- of the widest joint, within any quarter of a secon
   return most
 end
 metric("swing", "m", swing)
-local walk = include "parts/walk.lua"
--- Speed of the block that walks fastest, of all blocks or of the ones that do not come to rest.
-local function drift(run, of_all)
-  local most = 0
-  for _, name in ipairs(blocks) do
-    local speed, stops = walk(run, name, wait / 3)
-    if of_all or not stops then most = math.max(most, speed) end
-  end
-  return most
-end
-metric("drift_any", "m/s", function(run) return drift(run, true) end)
-metric("drift", "m/s", function(run) return (fell(run) or swing(run) > still) and -1 or drift(run, false) end)
+local drift = include "parts/walk.lua"
+metric("drift_any", "m/s", function(run) return drift(run, blocks, wait / 3, true) end)
+metric("drift", "m/s", function(run) return (fell(run) or swing(run) > still) and -1 or drift(run, blocks, wait / 3) end)
 local function passed(run)
   local e = run.energy
   return math.abs(e.base_work_J) + math.abs(e.gravity_J) + math.abs(e.friction_J) + math.abs(e.damping_J) + math.abs(e.contact_damping_J) + 1e-12

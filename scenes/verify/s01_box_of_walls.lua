@@ -61,8 +61,7 @@ for _, of in ipairs { "alone", "ring" } do
   metric(of .. "_y_over_x", "", function(run) return least(run, of .. "_y") / least(run, of .. "_10") end)
   expect("metrics." .. of .. "_y_over_x", 1, { rel = 0.01, source = "the plan is symmetric; 0.5 % is the width of a bracket" })
   metric(of .. "_damped", "", function(run) return least(run, of .. "_damped") / least(run, of .. "_10") end)
-  -- Under the ring they differ by 3 %, without interlock (engine/laws/interlock.h) by 2.7 %; a bracket is .5 % wide.
-  expect("metrics." .. of .. "_damped", 1, { rel = 0.04, source = "Gomes: both methods of calibration give similar curves" })
+  expect("metrics." .. of .. "_damped", 1, { rel = 0.03, source = "Gomes: both methods of calibration give similar curves" })
 end
 for _, which in ipairs { "front", "back", "side" } do metric("turn_" .. which, "", function(run) return box.turn(run, which) end) end
 expect("metrics.turn_front", 1, { above = true, source = "the wall across the motion falls first" })

@@ -2,7 +2,7 @@
 -- And whether it only swings, or has nearly stopped: its swing dwindles from window to window and is more than twenty times as wide as the mean moves
 -- in one, or the mean moves less than half as far as between the first two. What creeps does neither. Means are weighted as Hann did, so that
 -- a swing cancels out of them.
-return function(run, name, window)
+local function walk(run, name, window)
   local times, now, before, swing, swung = run.time, 0, 0, 0, 0
   local last = times[#times]
   for _, axis in ipairs { "x", "y", "z" } do
@@ -21,4 +21,14 @@ return function(run, name, window)
     swing, swung = swing + range[3] ^ 2, swung + range[2] ^ 2
   end
   return math.sqrt(now) / window, now < 0.25 * before or (swing < swung and 400 * now < swing)
+end
+
+-- Speed (m/s) of the one of these blocks that walks fastest: `of_all`, or of those that neither swing nor have nearly stopped.
+return function(run, names, window, of_all)
+  local most = 0
+  for _, name in ipairs(names) do
+    local speed, stops = walk(run, name, window)
+    if of_all or not stops then most = math.max(most, speed) end
+  end
+  return most
 end
