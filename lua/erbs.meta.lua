@@ -319,7 +319,7 @@ function table_wave(keys) end
 ---@field column? integer column of the values, counted from 1 (default: the one after time) [0 to 1000]
 ---@field dt? number time step, for a file with one column of values [s; 0 to 1000; default 0]
 ---@field first_time? number time of the first value of such a file [s; 0 to 1000; default 0]
----@field unit? string unit of the values, if the file does not give one: g, m/s2, cm/s2, gal, mm/s2, ft/s2, in/s2; m/s, ... or m, ... by quantity
+---@field unit? string unit of the values, if the file does not give one: g, mg, m/s2, cm/s2, gal, mm/s2, ft/s2, in/s2; m/s, ... or m, ... by quantity
 ---@field decimal? "auto"|"point"|"comma" decimal mark of the file (auto: a comma where commas cannot part columns) [default auto]
 ---@field quantity? "acceleration"|"velocity"|"displacement" what the file holds; all but an acceleration needs `smoothing` [default acceleration]
 ---@field smoothing? number corner at which the spline that differentiates a velocity or displacement halves its amplitude [Hz; 0 to 10000; default 0]
@@ -397,7 +397,7 @@ function ground_motion(keys) end
 ---@field column? integer column of the values, counted from 1 (default: the one after time) [0 to 1000]
 ---@field dt? number time step, for a file with one column of values [s; 0 to 1000; default 0]
 ---@field first_time? number time of the first value of such a file [s; 0 to 1000; default 0]
----@field unit? string unit of the values, if the file does not give one: g, m/s2, cm/s2, gal, mm/s2, ft/s2, in/s2; m/s, ... or m, ... by quantity
+---@field unit? string unit of the values, if the file does not give one: g, mg, m/s2, cm/s2, gal, mm/s2, ft/s2, in/s2; m/s, ... or m, ... by quantity
 ---@field decimal? "auto"|"point"|"comma" decimal mark of the file (auto: a comma where commas cannot part columns) [default auto]
 ---@field quantity? "acceleration"|"velocity"|"displacement" what the file holds; all but an acceleration needs `smoothing` [default acceleration]
 ---@field smoothing? number corner at which the spline that differentiates a velocity or displacement halves its amplitude [Hz; 0 to 10000; default 0]

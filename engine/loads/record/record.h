@@ -19,7 +19,7 @@ struct Record {
   int column = 0;                         // of the values in a file of several columns, from 1; 0: the column after time
   double dt = 0;                          // s, step of a file without times (one column of values)
   double first_time = 0;                  // s, time of the first value of such a file
-  std::string unit;                       // of the values, if the file names none: g, m/s2, cm/s2, gal, ...
+  std::string unit;                       // of the values, if the file names none: g, mg, m/s2, cm/s2, gal, ...
   std::string decimal = "auto";           // decimal mark of the file: auto | point | comma
   std::string quantity = "acceleration";  // of the file: acceleration | velocity | displacement
   double smoothing = 0;                   // Hz, corner of the spline that turns a velocity or displacement into an acceleration
@@ -50,7 +50,7 @@ struct Record {
         {"dt", &Record::dt, "s", "time step, for a file with one column of values", 0, 1e3},
         {"first_time", &Record::first_time, "s", "time of the first value of such a file", 0, 1e3},
         {"unit", &Record::unit, "",
-         "unit of the values, if the file does not give one: g, m/s2, cm/s2, gal, mm/s2, ft/s2, in/s2; m/s, ... or m, ... by quantity"},
+         "unit of the values, if the file does not give one: g, mg, m/s2, cm/s2, gal, mm/s2, ft/s2, in/s2; m/s, ... or m, ... by quantity"},
         {"decimal", &Record::decimal, "", "decimal mark of the file (auto: a comma where commas cannot part columns)", 0, 0, false,
          "auto|point|comma"},
         {"quantity", &Record::quantity, "", "what the file holds; all but an acceleration needs `smoothing`", 0, 0, false,

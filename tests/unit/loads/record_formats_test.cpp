@@ -2,6 +2,7 @@
 #include <catch2/catch.hpp>
 
 #include "engine/base/units.h"
+#include "engine/loads/record/record_text.h"
 #include "tests/unit/loads/record_input.h"
 
 using namespace erbs;
@@ -129,4 +130,9 @@ TEST_CASE("a quantity and its unit must agree", "[loads][record]") {
   CHECK_THAT(mistake_in("0 1\n1 2\n", [](Record& r) { r.unit = "g", r.smoothing = 5; }), Contains("scene.lua:7") && Contains("smoothing"));
   CHECK_THAT(mistake_in("A\nB\nDISPLACEMENT TIME SERIES IN UNITS OF CM\nNPTS= 3, DT= .01 SEC\n.1 .2 .3\n"),
              Contains("motion.txt:3") && Contains("displacement"));
+}
+
+TEST_CASE("the help on a unit lists all units of an acceleration", "[loads][record]") {
+  for (const auto& field : Record::fields())
+    if (field.name == "unit") CHECK_THAT(std::string(field.text), Contains(std::string(known_units("acceleration")) + ";"));
 }
