@@ -1,6 +1,7 @@
 #include "engine/record/recorders/recorder.h"
 
 #include <algorithm>
+#include <functional>
 #include <map>
 #include <set>
 
@@ -24,7 +25,24 @@ std::vector<std::string> quantity_names() {
   return names;
 }
 
-bool needs_blocks(const std::string& quantity) { return quantity_index(BlockMotion::quantities(), quantity) >= 0; }
+template <class K>
+bool is(const std::string& quantity) {
+  return quantity_index(K::quantities(), quantity) >= 0;
+}
+
+// A key that its quantity cannot use would be ignored in silence, and the column taken for another one.
+void check_unused(const Recorder& r, const std::function<void(const std::string&)>& say) {
+  const std::string& q = r.quantity;
+  const bool ground = is<GroundMotion>(q), count = is<Count>(q), joint = is<JointQuantity>(q);
+  if (!r.blocks.empty() && (ground || count))
+    say(fmt::format("{} is of the {}, not of blocks; leave out block, blocks and group", q, ground ? "ground" : "whole model"));
+  if (!r.others.empty() && !joint)
+    say(fmt::format("{} is no quantity of joints, which have another side; leave out others and other_group", q));
+  if (r.has_point && (ground || count || joint)) say(fmt::format("point goes with quantities of blocks, not with {}; leave it out", q));
+  if (r.frame == "abs" && !is<BlockMotion>(q)) say(fmt::format("frame goes with the motion of blocks, not with {}; leave it out", q));
+  if (r.axis != Recorder{}.axis && (count || (joint && q != "joint_moment")))
+    say(fmt::format("axis goes with vectors, and {} has no direction to choose; leave it out", q));
+}
 
 void check_one(const Recorder& r, const std::set<std::string>& blocks, std::vector<std::string>& mistakes) {
   const auto say = [&](const std::string& what) {
@@ -34,9 +52,8 @@ void check_one(const Recorder& r, const std::set<std::string>& blocks, std::vect
   if (std::find(known.begin(), known.end(), r.quantity) == known.end())
     say(fmt::format("there is no quantity \"{}\"{}; allowed: {}", r.quantity,
                     nearest(r.quantity, known).empty() ? "" : did_you_mean(r.quantity, known), fmt::join(known, ", ")));
-  else if (needs_blocks(r.quantity) && r.blocks.empty()) say(fmt::format("{} of which block? Give block, blocks or group", r.quantity));
-  else if (!r.others.empty() && quantity_index(JointQuantity::quantities(), r.quantity) < 0)
-    say(fmt::format("{} is no quantity of joints, which have another side; leave out others and other_group", r.quantity));
+  else if (is<BlockMotion>(r.quantity) && r.blocks.empty()) say(fmt::format("{} of which block? Give block, blocks or group", r.quantity));
+  else check_unused(r, say);
   std::set<std::string> listed;
   for (const auto* list : {&r.blocks, &r.others})
     for (const std::string& block : *list)
