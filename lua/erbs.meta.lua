@@ -556,7 +556,7 @@ function damping(keys) end
 ---@field monitor? { block?: string, point?: erbs.vec3 } point whose displacement along direction is the abscissa of the curve
 ---@field quality? "draft"|"standard"|"reference" a measured pair of step (over its limit) and contact points, for values that the scene leaves open: 0.9 and 2 x 2, 0.9 and 3 x 3, 0.25 and 5 x 5
 
----Kind, duration, time step and end of the run.
+---Kind, duration, time step and end of the run. A later call changes the keys that it gives.
 ---@param keys erbs.analysis_keys
 function analysis(keys) end
 

@@ -8,8 +8,10 @@ namespace {
 
 int damping(Call& call) {
   Arguments arguments = call.arguments();
-  call.context.scene.damping.place = call.place;
-  arguments.read(call.context.scene.damping);
+  Damping& into = call.context.scene.damping;
+  if (into.place.line > 0) arguments.mistake(fmt::format("it was given before, at {}; put all keys into one", into.place.text()));
+  into.place = call.place;
+  arguments.read(into);
   return 0;
 }
 
@@ -154,7 +156,7 @@ Keys recorder_keys() {
 std::vector<Function> analysis_functions() {
   return {
       {"damping", damping, "{ ... }", "", "Damping of blocks and of joints.", keys_of<Damping>()},
-      {"analysis", analysis, "{ ... }", "", "Kind, duration, time step and end of the run.",
+      {"analysis", analysis, "{ ... }", "", "Kind, duration, time step and end of the run. A later call changes the keys that it gives.",
        joined(
            {keys_of<Analysis>(),
             keys_of<PushSettings>(),
