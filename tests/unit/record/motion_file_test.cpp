@@ -1,9 +1,11 @@
 #include "engine/record/folder/motion_file.h"
 
 #include <signal.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <array>
 #include <catch2/catch.hpp>
 #include <filesystem>
 #include <fstream>
@@ -119,6 +121,40 @@ TEST_CASE("a killed writer leaves every whole frame, and the file can be gone on
   CHECK(MotionReader(dir.path.string()).times().size() == 610);  // read while the file grows
   writer.close();
   check_frames(dir.path, 610);
+}
+
+TEST_CASE("a full disk leaves every frame written before, and the file can be gone on with", "[record][motion_file]") {
+  for (rlim_t room = 12000; room < 40000; room += 1777) {
+    INFO(room);
+    const Folder dir;
+    std::array<int, 2> pipe_ends{};
+    REQUIRE(pipe(pipe_ends.data()) == 0);
+    const pid_t child = fork();
+    if (child == 0) {
+      signal(SIGXFSZ, SIG_IGN);
+      const rlimit limit{room, room};
+      setrlimit(RLIMIT_FSIZE, &limit);
+      int written = 0;
+      try {
+        MotionWriter writer(dir.path.string(), two_blocks());
+        for (; written < 600; ++written) writer.write(frame_at(written));
+      } catch (const WriteError&) {
+        // the writer has closed what it could not write, as at the end of a run
+      }
+      _exit(write(pipe_ends[1], &written, sizeof written) == sizeof written ? 0 : 1);
+    }
+    int written = 0, status = 0;
+    CHECK(read(pipe_ends[0], &written, sizeof written) == sizeof written);
+    close(pipe_ends[0]), close(pipe_ends[1]);
+    REQUIRE(waitpid(child, &status, 0) == child);
+    CHECK(written < 600);
+    if (written == 0) continue;
+    const int kept = written - written / 3;  // as of a checkpoint some frames ago
+    MotionWriter writer(dir.path.string(), kept);
+    for (int i = kept; i < kept + 50; ++i) writer.write(frame_at(i));
+    writer.close();
+    check_frames(dir.path, kept + 50);
+  }
 }
 
 TEST_CASE("a motion file whose head does not fit its sum is refused soon", "[record][motion_file]") {
