@@ -8,14 +8,12 @@
 #include <atomic>
 #include <thread>
 
-#include "engine/analysis/diagnostics.h"
 #include "engine/analysis/dynamic.h"
 #include "engine/analysis/quasi_static/push_run.h"
 #include "engine/base/system/affinity.h"
 #include "engine/base/system/interrupt.h"
 #include "engine/base/text.h"
 #include "engine/record/performance/performance_figure.h"
-#include "engine/record/results/collapse.h"
 #include "engine/scene/effects.h"
 #include "engine/study/twin.h"
 #include "lua/program/child.h"
@@ -26,6 +24,7 @@
 #include "lua/reports/expectations.h"
 #include "lua/reports/figures.h"
 #include "lua/reports/profile_text.h"
+#include "lua/reports/run_summary.h"
 #include "lua/reports/stored.h"
 #include "lua/reports/studies.h"
 
@@ -72,106 +71,6 @@ std::vector<std::string> complete_metrics(Script& script, const std::string& pat
   write_json(run_file(directory, "metrics.json"), metrics);
   if (!verdicts.empty()) write_json(run_file(directory, "expectations.json"), to_json(verdicts));
   return failures;
-}
-
-double number_at(const Json& metrics, const char* key) {
-  const Json* value = find_key(metrics, key);
-  return value && value->is_number() ? value->get<double>() : 0;
-}
-
-std::string collapse_text(const Analysis& how, const Json& metrics) {
-  const Json* collapsed = find_key(metrics, "collapse.collapsed");
-  const double share = number_at(metrics, "collapse.fallen_fraction");
-  if (!collapsed || !collapsed->is_boolean() || !collapsed->get<bool>())
-    return share > 0 ? fmt::format("no collapse; {:.2g} % of the mass fell", 100 * share) : "no collapse; nothing fell";
-  const Json* weight = find_key(metrics, "collapse.under_gravity");
-  const bool under_gravity = weight && weight->is_boolean() && weight->get<bool>();
-  const Json* direction = find_key(metrics, "collapse.direction");
-  const std::string towards = direction && direction->is_array() && direction->size() >= 2
-                                  ? fmt::format(" towards ({:+.2f}, {:+.2f})", (*direction)[0].get<double>(), (*direction)[1].get<double>())
-                                  : " in no single direction";
-  std::string text = under_gravity ? fmt::format("does not stand under its own weight; {:.0f} % of the mass fell by the end", 100 * share)
-                                   : fmt::format("collapse {}{}; {:.0f} % of the mass has fallen by the end",
-                                                 span_of_event(how, number_at(metrics, "collapse.time_s")), towards, 100 * share);
-  const Json* mechanism = find_key(metrics, "collapse.mechanism.summary");
-  const Json* course = find_key(metrics, "collapse.course");
-  if (course && course->is_string() && *course != "") text += "\ncourse: " + course->get<std::string>();
-  if (mechanism && mechanism->is_string() && *mechanism != "") text += "\nmechanism: " + mechanism->get<std::string>();
-  return text;
-}
-
-// The result of a push: capacity, where it stands on its curve, and the mechanism.
-std::string capacity_text(const PushSettings& push, const Json& metrics) {
-  const Json* capacity = find_key(metrics, "capacity");
-  if (!capacity) return "";
-  if (capacity->value("gravity_alone", false)) return "does not stand under its own weight";
-  const auto number = [&](const char* key) { return number_at(*capacity, key); };
-  const char* unit = !push.tilts() && push.pattern.empty() ? " g" : "";
-  std::string text = push.tilts() ? fmt::format("tilts to {:.3f} deg (tangent {:.5g})", number("angle_deg"), number("multiplier"))
-                                  : fmt::format("capacity {:.5g}{}", number("multiplier"), unit);
-  text += (*capacity)["upper"].is_number()             ? fmt::format("; no equilibrium at {:.5g}{}", number("upper"), unit)
-          : metrics.value("status", "") != "completed" ? " so far"
-          : capacity->value("past_peak", false)        ? "; the peak of the curve"
-          : push.control == "displacement"             ? "; the curve still rises at its end"
-                                                       : "; no collapse up to there";
-  const Json& shear = (*capacity)["base_shear_over_weight"];
-  text +=
-      fmt::format("\nat the peak: displacement {:.4g} mm, base shear {}, {:.0f} joints opened, {:.0f} slid", 1e3 * number("displacement_m"),
-                  shear.is_number() ? fmt::format("{:.4g} of the weight", shear.get<double>())
-                                    : fmt::format("{:.4g} kN", 1e-3 * number("base_shear_N")),
-                  number("joints_opened"), number("joints_slid"));
-  if (const Json& limit = (*capacity)["limit"]; limit.is_object()) {
-    const auto bracket = [](const Json& b) {
-      return !b["stands"].get<bool>() ? std::string("does not stand")
-             : b["lower"].is_number() ? fmt::format("{:.5g}{}", 0.5 * (b["lower"].get<double>() + b["upper"].get<double>()),
-                                                    b["converged"].get<bool>() ? "" : " (not converged)")
-                                      : std::string("no mechanism");
-    };
-    text +=
-        fmt::format("\nlimit analysis: {}{}", bracket(limit["dry"]),
-                    limit["bonded"].is_object() ? fmt::format(" without bond; {} with it, as if ductile", bracket(limit["bonded"])) : "");
-  }
-  if (const std::string mechanism = capacity->value("mechanism_text", ""); !mechanism.empty()) text += "\nmechanism: " + mechanism;
-  std::string walls;
-  const Json by_wall = capacity->value("walls", Json::object());
-  for (const auto& [group, does] : by_wall.items())
-    walls += fmt::format("{}{}: {}", walls.empty() ? "" : "; ", group, does.get<std::string>());
-  if (!walls.empty()) text += "\nwalls: " + walls;
-  return text + fmt::format("\n{:.0f} states in {:.0f} attempts, {:.3g} steps; mean unbalanced force {:.1e} of the applied one",
-                            number("states"), number("attempts"), number("relaxation_steps"), number("unbalanced_relative"));
-}
-
-void print_summary(const Scene& scene, const std::string& directory, const Json& metrics, const std::vector<Verdict>& verdicts,
-                   std::size_t without_answer) {
-  if (scene.push.quasi_static()) {
-    const Json* performance = find_key(metrics, "capacity.performance");
-    say("{}: {}, {} in {}; {} blocks, {} joints, {} broken\n{}\n", scene.name, metrics.value("status", ""), scene.push.kind,
-        duration_text(number_at(metrics, "wall_s.total")), metrics.value("blocks", 0), metrics.value("joints", 0),
-        metrics.value("joints_broken", 0), capacity_text(scene.push, metrics));
-    if (performance) say("{}\n", performance_text(*performance));
-  } else {
-    say("{}: {}, {:g} s simulated in {} ({:.3g} x real time); {} blocks, {} joints, {} broken\n", scene.name, metrics.value("status", ""),
-        number_at(metrics, "time_s"), duration_text(number_at(metrics, "wall_s.total")), number_at(metrics, "realtime_factor"),
-        metrics.value("blocks", 0), metrics.value("joints", 0), metrics.value("joints_broken", 0));
-    say("{}\nenergy residual {:.1e}\n{}\n", collapse_text(scene.analysis, metrics), number_at(metrics, "energy.residual_relative"),
-        analysis::diagnostics_line(diagnostics_of(metrics)));
-  }
-  for (const auto& [name, unit] : scene.metric_units) {
-    const Json* value = find_key(metrics, "metrics." + name);
-    say("  {} = {} {}\n", name, value && value->is_number() ? fmt::format("{:.6g}", value->get<double>()) : "none", unit);
-  }
-  if (without_answer > 0) say("studies without an answer: {}; see above, and their tables in {}/studies\n", without_answer, directory);
-  int failed = 0;
-  for (const Verdict& v : verdicts) {
-    if (v.passed) continue;
-    ++failed;
-    say("  FAILED {}: expected {} {}, got {} ({})\n", v.key, v.expected, v.tolerance, v.got, v.place);
-  }
-  if (!verdicts.empty()) say("expectations: {} passed, {} failed\n", verdicts.size() - static_cast<size_t>(failed), failed);
-  const std::string status = metrics.value("status", "");
-  say("{}results in {}\n",
-      status == "completed" ? "" : fmt::format("{}{}; ", status, status == "inaccurate" ? ": not to be relied on" : ""), directory);
-  std::fflush(stdout);
 }
 
 int exit_code(const Scene& scene, const RunCommand& command, const analysis::RunOutcome& outcome, const Json& metrics,
