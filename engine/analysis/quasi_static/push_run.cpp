@@ -4,13 +4,13 @@
 #include <cmath>
 
 #include "engine/analysis/quasi_static/limit_beside.h"
+#include "engine/analysis/quasi_static/push_results.h"
 #include "engine/analysis/quasi_static/push_state.h"
 #include "engine/analysis/quasi_static/relaxation.h"
 #include "engine/analysis/resume.h"
 #include "engine/analysis/snapshot.h"
 #include "engine/record/folder/checkpoint.h"
 #include "engine/record/folder/run_writer.h"
-#include "engine/record/performance/performance_folder.h"
 #include "engine/record/results/collapse.h"
 #include "engine/record/results/mechanism_name.h"
 #include "engine/scene/effects.h"
@@ -34,7 +34,6 @@ class PushRun {
   bool stand();
   void push_on();
   void control_on();
-  bool past_peak() const;
   void fall(bool drawn);
   Relaxed attempt(const LoadCourse& course);
   bool record(const Solver& solver, const Relaxed& now);
@@ -42,8 +41,7 @@ class PushRun {
   bool interrupted();
   void save(const WriterProgress& written);
   void save_when_due();
-  double shown(double multiplier) const { return shown_multiplier(push_, multiplier); }
-  bool controlled() const { return push_.control == "displacement"; }
+  bool controlled() const { return by_displacement(push_); }
   void assess();
   Metrics metrics();
 
@@ -156,10 +154,7 @@ bool PushRun::interrupted() {
     p.joints_broken = run_.state.observed.joints_broken;
     p.residual = run_.state.energy.residual_relative;
     p.dt = run_.state.time.dt;
-    const std::string none = so_far_.path.above ? fmt::format(", none at {:.5g}", shown(*so_far_.path.above)) : "";
-    p.line = fall_.empty() ? fmt::format("multiplier {:.5g}, highest in equilibrium {:.5g}{}; {} states",
-                                         shown(relaxation_->loads().multiplier()), so_far_.peak.multiplier, none, so_far_.states)
-                           : fmt::format("capacity {:.5g}{}; {}", so_far_.peak.multiplier, none, fall_);
+    p.line = progress_line(push_, so_far_, relaxation_->loads().multiplier(), fall_);
     options_.progress(p);
   }
   if (options_.interrupted != nullptr && options_.interrupted->load()) out_.metrics.status = "interrupted";
@@ -208,7 +203,7 @@ void PushRun::push_on() {
     if (r.ending == Ending::stopped || r.ending == Ending::broken) return;
     if (r.found()) so_far_.path.found(), so_far_.multiplier = to;
     else so_far_.path.failed();
-    writer_->log(fmt::format("multiplier {:.6g}: {} after {} steps, unbalanced {:.2e}", shown(to),
+    writer_->log(fmt::format("multiplier {:.6g}: {} after {} steps, unbalanced {:.2e}", shown_multiplier(push_, to),
                              r.found()                      ? "equilibrium"
                              : r.ending == Ending::collapse ? "collapse"
                                                             : "creeps",
@@ -242,9 +237,6 @@ void PushRun::control_on() {
   }
   if (machine.bracketed()) so_far_.path.above = machine.load(*machine.above, machine.displacement);
 }
-
-// Under the load of this state the structure falls.
-bool PushRun::past_peak() const { return controlled() && so_far_.multiplier < so_far_.peak.multiplier; }
 
 // The collapse as it goes on from the least load without equilibrium, or from a state past the peak, for the mechanism, and for pictures
 // where it is `drawn`.
@@ -290,19 +282,12 @@ void PushRun::fall(bool drawn) {
   });
 }
 
-// Writes the displaced shape of a pushover, and finds the performance point for the spectrum of the scene.
 void PushRun::assess() {
   if (push_.kind != "pushover" || so_far_.states < 2) return;
-  write_shape(options_.directory, push_shape(run_.model, group_, so_far_.shapes));
-  if (!scene_.performance.given()) return;
-  try {
-    performance_ = evaluate_performance(options_.directory, scene_.performance);
-  } catch (const Error& error) {
-    performance_.emplace().spectrum = spectrum_name(scene_.performance.spectrum);
-    performance_->trouble = error.what();
-    out_.warnings.push_back(fmt::format("no performance point: {}", error.what()));
-    writer_->log("warning: " + out_.warnings.back());
-  }
+  performance_ = assess_pushover(options_.directory, scene_.performance, push_shape(run_.model, group_, so_far_.shapes));
+  if (!performance_ || performance_->trouble.empty()) return;
+  out_.warnings.push_back("no performance point: " + performance_->trouble);
+  writer_->log("warning: " + out_.warnings.back());
 }
 
 Metrics PushRun::metrics() {
@@ -334,15 +319,8 @@ Metrics PushRun::metrics() {
   m.collapse.direction = collapse_direction(collapse_, run_.model, s.pose);
   m.collapse.mechanism = mechanism_metrics(collapse_.mechanism, run_.model);
   m.equilibrium = equilibrium_metrics(run_);
-  Capacity& c = m.capacity.emplace();
-  c.kind = push_.kind;
-  c.peak = so_far_.peak;
-  if (so_far_.path.above && !past_peak()) c.above = shown(*so_far_.path.above);
-  c.past_peak = past_peak();
+  Capacity& c = m.capacity.emplace(capacity_of(push_, so_far_));
   c.gravity_alone = gravity_alone_;
-  c.states = int(so_far_.states), c.attempts = int(so_far_.attempts);
-  c.relaxation_steps = so_far_.steps;
-  c.worst_unbalanced = so_far_.worst_unbalanced;
   c.limit = limit_;
   c.mechanism = mechanism_.name, c.course = mechanism_.text, c.walls = walls_;
   c.performance = performance_;
@@ -359,7 +337,7 @@ RunOutcome PushRun::go() {
   std::string& status = out_.metrics.status;
   if (status == "interrupted" || status == "stopped") {
     save(writer_->progress());
-  } else if (status == "completed" && (gravity_alone_ || so_far_.path.above || past_peak())) {
+  } else if (status == "completed" && (gravity_alone_ || so_far_.path.above || past_peak(push_, so_far_))) {
     const bool drawn = gravity_alone_ || so_far_.path.above;
     const State before = run_.state;
     const PushState known = so_far_;
