@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/record/recorders/joint_condition.h"
-
 namespace erbs::analysis {
 namespace {
 
@@ -15,6 +13,13 @@ std::size_t z(int i) { return std::size_t(i); }
 }  // namespace
 
 double shown_multiplier(const PushSettings& push, double multiplier) { return push.tilts() ? std::tan(multiplier) : multiplier; }
+
+JointChange joint_change(const Model& m, const JointState& joints, const BlockPoses& pose, int j) {
+  if (joints.stage[z(j)] == JointStage::intact) return {};
+  const JointCondition c = joint_condition(m, joints, pose, j);
+  const double size = joint_moved * m.joint[z(j)].type->radius;
+  return {c.opening > size, c.slip > size && c.slip > c.opening, c};
+}
 
 CurvePoint curve_point(const Model& m, const State& s, const Relaxation& relaxation, const Solver& solver, const PushSettings& push) {
   CurvePoint p;
@@ -28,10 +33,8 @@ CurvePoint curve_point(const Model& m, const State& s, const Relaxation& relaxat
   p.base_shear = relaxation.reaction(solver).dot(push.direction);
   p.base_shear_over_weight = weight > 0 ? p.base_shear / weight : std::nan("");
   for (int j = 0; j < m.njoint; ++j) {
-    if (s.joints.stage[z(j)] == JointStage::intact) continue;
-    const JointCondition c = joint_condition(m, s.joints, pose, j);
-    const double size = joint_moved * m.joint[z(j)].type->radius;
-    p.opening += c.opening > size, p.slid += c.slip > size && c.slip > c.opening;
+    const JointChange change = joint_change(m, s.joints, pose, j);
+    p.opening += change.open, p.slid += change.slid;
   }
   return p;
 }

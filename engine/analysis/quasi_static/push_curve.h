@@ -6,12 +6,20 @@
 
 #include "engine/analysis/quasi_static/relaxation.h"
 #include "engine/record/performance/performance_folder.h"
+#include "engine/record/recorders/joint_condition.h"
 #include "engine/record/results/capacity.h"
 
 namespace erbs::analysis {
 
 // A multiplier as the curve shows it: of a tilt the tangent of its angle, the acceleration over g.
 double shown_multiplier(const PushSettings& push, double multiplier);
+
+// Whether a joint is open in a state, or has slid.
+struct JointChange {
+  bool open = false, slid = false;
+  JointCondition now{};
+};
+JointChange joint_change(const Model& model, const JointState& joints, const BlockPoses& pose, int j);
 
 // All of a point but what the relaxation says of itself; the solver is at a sample of `state`. `model` has the true masses.
 CurvePoint curve_point(const Model& model, const State& state, const Relaxation& relaxation, const Solver& solver,

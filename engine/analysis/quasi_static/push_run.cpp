@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "engine/analysis/quasi_static/limit_beside.h"
+#include "engine/analysis/quasi_static/push_events.h"
 #include "engine/analysis/quasi_static/push_results.h"
 #include "engine/analysis/quasi_static/push_state.h"
 #include "engine/analysis/quasi_static/relaxation.h"
@@ -132,6 +133,7 @@ bool PushRun::record(const Solver& solver, const Relaxed& now) {
   curve_->flush();
   writer_->row(state);
   writer_->frame(state);
+  write_push_events(so_far_.happened, run_.model, run_.state.joints, state.pose, so_far_.t, *writer_);
   run_.state.observed.joints_broken = state.joints_broken;
   so_far_.t += scene_.analysis.frame_dt;
   so_far_.curve_rows = curve_->rows(), so_far_.curve_sum = curve_->sum();

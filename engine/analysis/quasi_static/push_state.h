@@ -19,6 +19,7 @@ struct PushState {
   double steps = 0, worst_unbalanced = 0;
   std::uint64_t curve_sum = 0;
   DisplacedShapes shapes;
+  std::vector<std::uint8_t> happened;  // to each joint: what events.csv has told of it (push_events.h)  [njoint]
 };
 
 template <class P, class F>
@@ -36,6 +37,7 @@ void each(P& p, F&& f) {
   f("push_curve_rows", p.curve_rows);
   f("push_curve_sum", p.curve_sum);
   each(p.shapes, f);
+  f("push_happened", p.happened);
 }
 
 }  // namespace erbs::analysis

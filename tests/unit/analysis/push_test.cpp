@@ -6,9 +6,11 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
+#include <set>
 #include <sstream>
 
 #include "engine/base/units.h"
+#include "engine/record/format/csv.h"
 #include "tests/unit/analysis/push.h"
 #include "tests/unit/record/two_bricks.h"
 
@@ -26,6 +28,8 @@ wall{ brick = { length = .4, width = .2, height = .2 }, length = 1.2, courses = 
 joint{ law = dry{ kn = 1e10, ks = 4e9, mu = .6 } }
 )";
 
+std::size_t z(int i) { return std::size_t(i); }
+
 }  // namespace
 
 TEST_CASE("a push gives the same bits with any number of threads", "[push]") {
@@ -36,6 +40,27 @@ TEST_CASE("a push gives the same bits with any number of threads", "[push]") {
   CHECK(a.metrics.capacity->peak.multiplier > 0.2);
   CHECK(a.metrics.state_hash == b.metrics.state_hash);
   CHECK(a.curve == b.curve);
+}
+
+TEST_CASE("a push tells once of each joint in which state it cracks, opens and slides", "[push]") {
+  std::string mortar = wall_text;
+  mortar.replace(mortar.find("mu = .6"), 7, "mu = .6, ft = .02*MPa, c = .03*MPa").replace(mortar.find("dry{"), 4, "mortar{");
+  for (const auto& [text, events] : {std::pair{wall_text, std::set<std::string>{"open", "slide"}}, {mortar, {"crack"}}}) {
+    const test::Scratch dir("push_events");
+    push(text + "analysis{ kind = 'pushover', direction = 'x', step = .05, bracket = .01 }", dir.path);
+    const CsvTable table = read_csv(dir.path + "/events.csv"), curve = read_csv(dir.path + "/curve.csv");
+    const auto &what = table.text[z(table.find("event"))], &name = table.text[z(table.find("name"))];
+    std::set<std::pair<std::string, std::string>> told;
+    std::map<std::string, int> count;
+    for (std::size_t row = 0; row < what.size(); ++row)
+      if (what[row] != "collapse") {
+        CHECK(told.emplace(what[row], name[row]).second);
+        ++count[what[row]];
+      }
+    for (const std::string& event : events) CHECK(count[event] > 0);
+    const std::vector<double>& opened = curve.columns[z(curve.find("joints_opened"))];
+    CHECK(count["open"] >= *std::max_element(opened.begin(), opened.end()));
+  }
 }
 
 TEST_CASE("an interrupted push that is resumed gives the same curve, to the bit", "[push][resume]") {
@@ -58,7 +83,7 @@ TEST_CASE("an interrupted push that is resumed gives the same curve, to the bit"
     CHECK(got.metrics.state_hash == expected.metrics.state_hash);
     CHECK(got.curve == expected.curve);
     CHECK(got.metrics.capacity->peak.multiplier == expected.metrics.capacity->peak.multiplier);
-    CHECK(slurp(parts.path + "/histories.csv") == slurp(whole.path + "/histories.csv"));
+    for (const char* file : {"/histories.csv", "/events.csv"}) CHECK(slurp(parts.path + file) == slurp(whole.path + file));
   }
 }
 
