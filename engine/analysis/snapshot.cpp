@@ -4,6 +4,7 @@
 #include <cstddef>
 
 #include "engine/record/recorders/joint_stress.h"
+#include "engine/solve/blocks/prescribed.h"
 
 namespace erbs::analysis {
 namespace {
@@ -22,13 +23,25 @@ int broken_joints(const Model& model, const JointState& joints) {
   return broken;
 }
 
+// Of a block with prescribed motion: velocities are known half a step before and after t only. Where these two steps differ, as they do
+// when levels of contacts change the step, their difference over the time between is the acceleration at another instant than t.
+void differentiate(const Model& m, int b, const BlockPoses& pose, double t, double h, MovingBlock& o) {
+  const Quat& attitude = pose.q[z(b)];
+  const PrescribedPose before = prescribed_pose(m, b, t - h, attitude), now = prescribed_pose(m, b, t, attitude),
+                       after = prescribed_pose(m, b, t + h, attitude);
+  o.a = (after.u - 2 * now.u + before.u) / (h * h);
+  o.alpha = (rotation_vector(after.q * now.q.conjugate()) - rotation_vector(now.q * before.q.conjugate())) / (h * h);
+}
+
 }  // namespace
 
 Snapshot snapshot_of(const Model& m, const State& state, const Solver& solver, bool joint_forces) {
   const SampleState& now = solver.sample();
   const JointState& joints = state.joints;
   Snapshot s{.model = m, .pose = now.pose, .joints = joints, .energy = state.energy, .t = now.t};
-  s.motion = [&m, &now, &after = state.motion, kick = now.excitation.kick](std::size_t b) {
+  const double span =
+      std::max(now.excitation.kick, state.time.dt_target);  // s, in which a prescribed motion changes by more than round-off
+  s.motion = [&m, &now, &after = state.motion, kick = now.excitation.kick, span](std::size_t b) {
     const MotionState& before = now.before;
     MovingBlock o;
     o.a = (after.v[b] - before.v[b]) / kick;
@@ -41,6 +54,7 @@ Snapshot snapshot_of(const Model& m, const State& state, const Solver& solver, b
       o.alpha -= r * m.inverse_inertia[b] * r.transpose() * now.kick_excess[b].tail<3>();
       moment -= now.kick_excess[b].tail<3>();
     }
+    if (m.kind[b] == Kind::driven && now.t >= span) differentiate(m, int(b), now.pose, now.t, span, o);
     const double half = 0.5 * (levels ? now.since[b] : now.last_dt);
     o.v = before.v[b] + half * o.a;
     o.w = before.w[b] + half * o.alpha;

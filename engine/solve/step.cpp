@@ -9,6 +9,7 @@
 #include "engine/model/joint_packs.h"
 #include "engine/model/levels.h"
 #include "engine/solve/blocks/islands.h"
+#include "engine/solve/blocks/prescribed.h"
 
 namespace erbs {
 namespace {
@@ -209,22 +210,7 @@ void Solver::apply_prescribed_motions() {
   e.external_next = 0;
   for (int b = 0; b < m.nblock; ++b) {
     if (m.kind[z(b)] != Kind::driven) continue;
-    Vec3 to = Vec3::Zero();
-    Quat at = Quat::Identity();
-    bool rotates = false;
-    for (const auto& d : m.prescribed_motions) {
-      if (d.block != b) continue;
-      const double x = value(d.wave, s.time.t + s.time.dt);
-      if (!d.rotates) {
-        to += x * d.direction;
-        continue;
-      }
-      const Quat angle = rotation(x * d.direction);
-      to += angle * d.arm - d.arm;
-      at = angle * at;
-      rotates = true;
-    }
-    if (!rotates) at = s.pose.q[z(b)];  // no prescribed rotation: the attitude stays
+    const auto [to, at] = prescribed_pose(m, b, s.time.t + s.time.dt, s.pose.q[z(b)]);
     const Vec3 v = (to - s.pose.u[z(b)]) / s.time.dt, w = rotation_vector(at * s.pose.q[z(b)].conjugate()) / s.time.dt;
     const Vec6 wrench = kick_wrench(b);
     const Vec3 force = wrench.head<3>(), moment = wrench.tail<3>();
