@@ -38,9 +38,8 @@ function verdictCard(metrics) {
   if (checks.passed + checks.failed) lines.push(`Expectations of the scene: ${checks.passed} met, ${checks.failed} not`);
   const ended = metrics.status === 'completed' ? '' : ` (run ${metrics.status})`;
   // A push, and what does not stand under its own weight, have no time of collapse.
-  const timed = typeof collapse.time_s === 'number';
   const lead = !collapse.collapsed ? 'Does not collapse' :
-      timed                        ? `Collapses at ${short(collapse.time_s)} s` :
+      run.collapse_when            ? `Collapses ${run.collapse_when}` :
       collapse.under_gravity       ? 'Does not stand under its own weight' :
                                      'Collapses';
   return card(collapse.collapsed ? 'bad' : 'good', 'Verdict', lead + ended, lines);

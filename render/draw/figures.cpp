@@ -65,9 +65,9 @@ void add_marks(const Run& run, double last_time, bool named, plot::Panel& p) {
     if (mark.t > last_time) continue;
     p.add_vertical(mark.t, "back lc rgb '#8a2f20' lw 1 dashtype 3");
     if (!named) continue;
-    const bool right = mark.t > 0.75 * last_time;
+    const bool right = mark.t > 0.7 * last_time;
     p.labels.push_back(
-        {fmt::format("{} {:.2f} s", mark.name, mark.t), fmt::format("first {},graph 1", mark.t),
+        {fmt::format("{} {}", mark.name, mark.when), fmt::format("first {},graph 1", mark.t),
          fmt::format("{} offset {},-{} front boxed tc rgb '#8a2f20' font ',11'", right ? "right" : "left", right ? -0.6 : 0.6, row)});
     row += 1;
   }

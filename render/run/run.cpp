@@ -61,7 +61,7 @@ Vec3 lean_of(const Vec3& gravity) {
 }
 
 // First crack (in dry masonry: first joint that opened), and collapse.
-std::vector<Mark> first_events(const CsvTable& events) {
+std::vector<Mark> first_events(const CsvTable& events, const Run& run, const Manifest& manifest) {
   std::vector<Mark> marks;
   const int time = events.find("time_s"), event = events.find("event");
   if (time < 0 || event < 0) return marks;
@@ -69,7 +69,8 @@ std::vector<Mark> first_events(const CsvTable& events) {
   const auto add = [&](const std::string& kind, const std::string& name) {
     const auto at = std::find(what.begin(), what.end(), kind);
     if (at == what.end()) return false;
-    marks.push_back({events.columns[static_cast<std::size_t>(time)][static_cast<std::size_t>(at - what.begin())], name});
+    const double t = events.columns[static_cast<std::size_t>(time)][static_cast<std::size_t>(at - what.begin())];
+    marks.push_back({t, name, run.multipliers.empty() ? span_of_event(manifest, t) : "at " + clock_text(run, t)});
     return true;
   };
   if (!add("crack", "first crack")) add("open", "first opening");
@@ -77,12 +78,12 @@ std::vector<Mark> first_events(const CsvTable& events) {
   return marks;
 }
 
-// "collapse at 1.70 s: gives way between ..."; "" while it stands.
-std::string verdict_of(const Json& metrics) {
+// "collapse between 1.69 and 1.70 s: gives way between ..."; "" while it stands.
+std::string verdict_of(const Json& metrics, const Manifest& manifest) {
   const Json *time = find_key(metrics, "collapse.time_s"), *course = find_key(metrics, "collapse.course");
   if (!time || !time->is_number()) return {};
   const std::string how = course && course->is_string() ? course->get<std::string>() : "";
-  return fmt::format("collapse at {:.2f} s{}{}", time->get<double>(), how.empty() ? "" : ": ", how);
+  return fmt::format("collapse {}{}{}", span_of_event(manifest, time->get<double>()), how.empty() ? "" : ": ", how);
 }
 
 Vec3 linear(const Vec3& srgb) { return srgb.cwiseMax(0).cwiseMin(1).array().pow(2.2); }  // the shaders convert back
@@ -138,7 +139,7 @@ Run read_run(const std::string& dir) {
   if (const std::string metrics = run_file(dir, "metrics.json"); std::filesystem::exists(metrics)) {
     const Json now = read_json(metrics);
     run.status = now.value("status", "");
-    run.verdict = verdict_of(now);
+    run.verdict = verdict_of(now, m);
   }
   if (run.status == "completed") run.status.clear();
   if (std::filesystem::exists(histories)) {
@@ -161,7 +162,8 @@ Run read_run(const std::string& dir) {
       run.multiplier_unit = first.size() > stem.size() ? first.substr(stem.size() + 1) : "";
     }
   }
-  if (const std::string events = run_file(dir, "events.csv"); std::filesystem::exists(events)) run.marks = first_events(read_csv(events));
+  if (const std::string events = run_file(dir, "events.csv"); std::filesystem::exists(events))
+    run.marks = first_events(read_csv(events), run, m);
   return run;
 }
 

@@ -36,8 +36,9 @@ Mat3 levelling(const GravityRecord& gravity, double t);  // the identity without
 
 // First event of a kind, for figures and the strip below pictures.
 struct Mark {
-  double t = 0;      // s
+  double t = 0;      // s, of the row or frame that shows it
   std::string name;  // "first crack", "collapse"
+  std::string when;  // "between 3.36 and 3.37 s", which is what is known of it; of a push "at state 7: 0.12 g"
 };
 
 struct Run {

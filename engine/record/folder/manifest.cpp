@@ -6,6 +6,7 @@
 #include "engine/base/hash.h"
 #include "engine/base/system/isa.h"
 #include "engine/record/folder/build_info.h"
+#include "engine/record/results/collapse.h"
 
 namespace erbs {
 namespace {
@@ -210,6 +211,8 @@ Manifest manifest_of(const Scene& scene, const std::string& script) {
 }
 
 void write_manifest(const std::string& dir, const Manifest& manifest) { write_json(dir + "/manifest.json", json_of_manifest(manifest)); }
+
+std::string span_of_event(const Manifest& manifest, double t) { return span_of_event(manifest.output_dt, manifest.frame_dt, t); }
 
 Manifest read_manifest(const std::string& dir) {
   const std::string path = dir + "/manifest.json";

@@ -36,6 +36,9 @@ Manifest manifest_of(const Scene& scene, const std::string& script);
 void write_manifest(const std::string& dir, const Manifest& manifest);  // DIR/manifest.json, atomically
 Manifest read_manifest(const std::string& dir);                         // script places are not read back
 
+// What is known of an event that a row or frame at the time t (s) showed first: "between 3.36 and 3.37 s" (results/collapse.h).
+std::string span_of_event(const Manifest& manifest, double t);
+
 std::string program_version();                    // "0.1.0 (1a2b3c4)"
 std::string machine_isa();                        // vector instructions the kernels use: avx512f, avx2, sse2
 std::string title_of(const std::string& script);  // first comment line of the script; "" if the script does not begin with one

@@ -168,6 +168,8 @@ std::string report_html(const ReportedRun& run, const ReportPage& page, const st
   data["events_left_out"] = run.events_left_out;
   data["manifest"] = run.manifest;
   data["metrics"] = run.metrics;
+  if (const Json* fell = find_key(run.metrics, "collapse.time_s"); fell && fell->is_number())
+    data["collapse_when"] = span_of_event(run.run.manifest, fell->get<double>());
   data["push"] = push_json(run.push_curve);
   const auto packed = [](const std::string& bytes) { return base64(deflated(bytes)); };
   const std::string& title = run.run.manifest.title.empty() ? run.run.manifest.scene_name : run.run.manifest.title;

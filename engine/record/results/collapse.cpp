@@ -45,8 +45,9 @@ bool update(Collapse& collapse, const Model& model, const BlockPoses& pose, doub
   return true;
 }
 
-std::string span_of_event(const Analysis& how, double t) {
-  const std::array every{how.output_dt, how.frame_dt};
+std::string span_of_event(double output_dt, double frame_dt, double t) {
+  if (!(output_dt > 0 && frame_dt > 0)) return fmt::format("by {:.2f} s", t);
+  const std::array every{output_dt, frame_dt};
   double due = 0, before = 0;  // of this look, which may be taken up to a step later, and of the one before
   for (const double dt : every) due = std::max(due, dt * std::floor(t / dt + 1e-6));
   for (const double dt : every) before = std::max(before, dt * (std::ceil(due / dt - 1e-6) - 1));

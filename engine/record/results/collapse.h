@@ -47,7 +47,8 @@ Collapse watch_collapse(const Model& model, const BlockPoses& start);
 bool update(Collapse& collapse, const Model& model, const BlockPoses& pose, double t, std::vector<int>* newly = nullptr);
 
 // "between 3.36 and 3.37 s": what is looked at when rows and frames are due, and found at the time t, came after the look before.
-std::string span_of_event(const Analysis& how, double t);
+std::string span_of_event(double output_dt, double frame_dt, double t);
+inline std::string span_of_event(const Analysis& how, double t) { return span_of_event(how.output_dt, how.frame_dt, t); }
 
 // Mean horizontal displacement (x, y) of the blocks that are down now, as a unit vector. Empty if no block is down. Empty also if the mean
 // vector is shorter than a tenth of the mean length: the blocks fell in all directions.

@@ -42,6 +42,7 @@ TEST_CASE("a run folder is read", "[render][run]") {
   manifest.cameras[0].fov = 0.5;
   manifest.materials.resize(1);
   manifest.materials[0].color = Vec3(0.5, 0.2, 0.1);
+  manifest.output_dt = 0.01, manifest.frame_dt = 0.04;
   manifest.settings = {{"analysis", {{"energy_gate", {{"value", 1e-3}}}}}};
   write_manifest(dir.path.string(), manifest);
   dir.write("histories.csv", "time_s,ground_ax_m_s2,ground_ay_m_s2\n0,0,0\n0.1,0,-3\n0.2,0,1\n0.3,5");
@@ -67,10 +68,11 @@ TEST_CASE("a run folder is read", "[render][run]") {
   REQUIRE(marks.size() == 2);
   CHECK(marks[0].name == "first crack");
   CHECK(marks[0].t == 0.2);
+  CHECK(marks[0].when == "between 0.190 and 0.200 s");
   CHECK(marks[1].name == "collapse");
   CHECK(read_run(dir.path.string()).verdict.empty());
   dir.write("metrics.json", R"({"status": "completed", "collapse": {"time_s": 0.4, "course": "gives way between 1 and 2 m"}})");
-  CHECK(read_run(dir.path.string()).verdict == "collapse at 0.40 s: gives way between 1 and 2 m");
+  CHECK(read_run(dir.path.string()).verdict == "collapse between 0.390 and 0.400 s: gives way between 1 and 2 m");
   manifest.cameras[0].target = manifest.cameras[0].eye;
   write_manifest(dir.path.string(), manifest);
   CHECK_THROWS_WITH(read_run(dir.path.string()), Catch::Contains("camera front looks nowhere"));
@@ -177,7 +179,7 @@ TEST_CASE("a run folder from anywhere is drawn, and runs nothing", "[render][fig
   Run run;
   run.dir = folder.path.string();
   run.title = bad + "\nsystem('touch pwned')";
-  run.marks = {{0.5, bad}};
+  run.marks = {{0.5, bad, bad}};
   CHECK(write_figures(run).size() == 2);
   CHECK_FALSE(std::filesystem::exists(folder.path / "pwned"));
   CHECK_FALSE(std::filesystem::exists("pwned"));
