@@ -145,6 +145,7 @@ void Run::watch(const BlockVec3& built) {
   for (const int b : run_.fallers) collapse_.start[z(b)] = built[z(b)].z();
   if (run_.fallers.empty() || falling_share(run_) < scene_.analysis.collapse_fraction) return;
   collapse_.collapsed = collapse_.under_gravity = true;
+  collapse_.thrown = thrown_blocks(scene_, run_.model, run_.state);
   collapse_.mechanism = mechanism_of(run_.model, run_.state.pose, 0);
 }
 

@@ -8,8 +8,10 @@
 namespace erbs {
 namespace {
 
+bool counts(const Collapse& collapse, const Model& model, std::size_t b) { return model.kind[b] == Kind::moving && !collapse.thrown[b]; }
+
 bool down(const Collapse& collapse, const Model& model, const BlockPoses& pose, std::size_t b) {
-  return model.kind[b] == Kind::moving && collapse.start[b] - pose.u[b].z() > 0.5 * model.thickness[b];
+  return counts(collapse, model, b) && collapse.start[b] - pose.u[b].z() > 0.5 * model.thickness[b];
 }
 
 }  // namespace
@@ -18,16 +20,30 @@ Collapse watch_collapse(const Model& model, const BlockPoses& start) {
   Collapse collapse;
   collapse.start.resize(std::size_t(model.nblock));
   for (std::size_t b = 0; b < collapse.start.size(); ++b) collapse.start[b] = start.u[b].z();
+  collapse.thrown.assign(collapse.start.size(), 0);
   collapse.fallen.assign(collapse.start.size(), 0);
   collapse.fall_time.assign(collapse.start.size(), 0.0);
   return collapse;
+}
+
+std::vector<std::uint8_t> thrown_blocks(const Scene& scene, const Model& model, const State& start) {
+  std::vector<std::uint8_t> thrown(std::size_t(model.nblock), 0);
+  bool stands = false;
+  for (std::size_t b = 0; b < thrown.size(); ++b) {
+    const Initial& initial = scene.blocks[b].initial();
+    const bool grounded = start.topology.grounded[b];
+    stands = stands || (grounded && model.kind[b] == Kind::moving);
+    thrown[b] = !grounded && (!initial.velocity.isZero() || !initial.spin.isZero());
+  }
+  if (!stands) thrown.assign(thrown.size(), 0);
+  return thrown;
 }
 
 bool update(Collapse& collapse, const Model& model, const BlockPoses& pose, double t, std::vector<int>* newly) {
   double fallen = 0, moving = 0;  // kg
   const double far = model.analysis.stop_when_moved;
   for (std::size_t b = 0; b < collapse.start.size(); ++b) {
-    if (model.kind[b] != Kind::moving) continue;
+    if (!counts(collapse, model, b)) continue;
     if (far > 0 && pose.u[b].squaredNorm() > far * far) collapse.moved = true;
     moving += model.mass[b];
     if (!down(collapse, model, pose, b)) continue;

@@ -1,5 +1,6 @@
 // Criterion of collapse. A block has fallen if its centroid is lower than at the start, relative to the ground, by more than half its
-// thinnest extent. The structure has collapsed if the fallen share of the moving mass reaches `Analysis::collapse_fraction`.
+// thinnest extent. The structure has collapsed if the fallen share of the moving mass reaches `Analysis::collapse_fraction`. What is thrown
+// at the structure is no part of it, and counts in neither mass.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -11,11 +12,13 @@
 #include "engine/model/model.h"
 #include "engine/model/state.h"
 #include "engine/record/results/mechanism.h"
+#include "engine/scene/scene.h"
 
 namespace erbs {
 
 struct Collapse {
   std::vector<double> start;         // m, height of each centroid above rest, at the start [nblock]
+  std::vector<std::uint8_t> thrown;  // the block flies by itself from the start (thrown_blocks) [nblock]
   std::vector<std::uint8_t> fallen;  // the block has fallen at some time [nblock], ...
   std::vector<double> fall_time;     // s, ... for the first time at this one [nblock]
   double fallen_fraction = 0;        // fallen share of the moving mass, now
@@ -30,6 +33,7 @@ template <class C, class F>
 requires std::is_same_v<std::remove_const_t<C>, Collapse>
 void each(C& c, F&& f) {
   f("collapse_start", c.start);
+  f("collapse_thrown", c.thrown);
   f("collapse_fallen", c.fallen);
   f("collapse_fall_time", c.fall_time);
   f("collapse_fraction", c.fallen_fraction);
@@ -41,6 +45,8 @@ void each(C& c, F&& f) {
 }
 
 Collapse watch_collapse(const Model& model, const BlockPoses& start);
+// Blocks that start with a velocity and that no joint leads to the ground, where there are others that joints do lead there: projectiles.
+std::vector<std::uint8_t> thrown_blocks(const Scene& scene, const Model& model, const State& start);
 
 // Updates the criterion with the poses at time t. Appends blocks that have fallen for the first time to `newly`, if given. Returns true at
 // the moment of collapse.

@@ -37,6 +37,26 @@ TEST_CASE("the time of a collapse is said as far as it is known: between two loo
   CHECK(span_of_event(how, 0.0204) == "between 0.02030 and 0.02040 s");
 }
 
+TEST_CASE("what is thrown at the structure has not fallen from it", "[record][collapse]") {
+  auto t = test::two_bricks();
+  t.state.topology.grounded = {1, 1, 0};
+  auto thrown = std::make_shared<Initial>();
+  thrown->velocity = Vec3(0, 10, 0);
+  t.scene.blocks[1].started = t.scene.blocks[2].started = thrown;  // the first is a part of the structure that sways
+  Collapse c = watch_collapse(t.model, t.state.pose);
+  c.thrown = thrown_blocks(t.scene, t.model, t.state);
+  CHECK(c.thrown == std::vector<std::uint8_t>{0, 0, 1});
+  t.state.pose.u[2].z() = -1;
+  CHECK_FALSE(update(c, t.model, t.state.pose, 1.0));
+  CHECK(c.fallen_fraction == 0);
+  CHECK_FALSE(collapse_direction(c, t.model, t.state.pose));
+  t.state.pose.u[1].z() = -1;
+  CHECK(update(c, t.model, t.state.pose, 2.0));
+  CHECK(c.fallen_fraction == 1);  // of the mass of the structure
+  t.state.topology.grounded = {1, 0, 0};
+  CHECK(thrown_blocks(t.scene, t.model, t.state) == std::vector<std::uint8_t>{0, 0, 0});  // nothing stands that they could be thrown at
+}
+
 TEST_CASE("the share that makes a collapse is the scene's", "[record][collapse]") {
   auto t = test::two_bricks();
   t.model.analysis.collapse_fraction = 0.5;
