@@ -55,6 +55,8 @@ class Run {
   void step_on();
   void watch(const BlockVec3& built);
   void record(const Snapshot& now);
+  Snapshot snapshot() const { return snapshot_of(run_.model, run_.state, *solver_, writer_->needs().joint_force); }
+  void show_end();
   bool stop();
   void take_counts();
   void change_threads();
@@ -78,6 +80,7 @@ class Run {
   std::optional<Crew> crew_;
   long touched_ = 0, slept_ = 0;
   double searched_ = 0, solved_ = 0;  // s
+  double framed_ = -1;                // s, time of the last frame of this process
   std::optional<RunWriter> writer_;
   RunOutcome out_;
   double dt_at_start_ = 0;
@@ -142,10 +145,10 @@ void Run::begin() {
 // A structure that cannot stand under its own weight has collapsed before the run begins, if the falling share of mass is large enough.
 void Run::watch(const BlockVec3& built) {
   collapse_ = watch_collapse(run_.model, run_.state.pose);
+  collapse_.thrown = thrown_blocks(scene_, run_.model, run_.state);
   for (const int b : run_.fallers) collapse_.start[z(b)] = built[z(b)].z();
   if (run_.fallers.empty() || falling_share(run_) < scene_.analysis.collapse_fraction) return;
   collapse_.collapsed = collapse_.under_gravity = true;
-  collapse_.thrown = thrown_blocks(scene_, run_.model, run_.state);
   collapse_.mechanism = mechanism_of(run_.model, run_.state.pose, 0);
 }
 
@@ -167,10 +170,15 @@ void Run::record(const Snapshot& now) {
   const double dt = solver_->sample().dt, reached = now.t + 1e-9 * dt;
   const bool end = now.t >= how.duration - 0.5 * dt;
   if (end || reached >= double(output_.rows) * how.output_dt) writer_->row(now);
-  if (end || reached >= double(output_.frames) * how.frame_dt) writer_->frame(now);
+  if (end || reached >= double(output_.frames) * how.frame_dt) writer_->frame(now), framed_ = now.t;
   while (double(output_.rows) * how.output_dt <= reached) ++output_.rows;
   while (double(output_.frames) * how.frame_dt <= reached) ++output_.frames;
   record_ += seconds() - began;
+}
+
+// A run that a collapse ends stops between two frames. Its pictures end with what it came to.
+void Run::show_end() {
+  if (out_.metrics.status == "completed" && solver_->sample().t > framed_) writer_->frame(snapshot());
 }
 
 void Run::save() {
@@ -292,8 +300,9 @@ void Run::step_on() {
   }
   while (true) {
     const Solver::Stop at = solver_->advance(output_.next(scene_.analysis, writer_->needs()));
-    if (at == Solver::Stop::sample) record(snapshot_of(run_.model, run_.state, *solver_, writer_->needs().joint_force));
-    if (solver_->broken() || stop()) return;
+    if (at == Solver::Stop::sample) record(snapshot());
+    if (solver_->broken()) return;
+    if (stop()) return show_end();
     if (crew_->should_change(run_.state.time.step)) change_threads();
   }
 }

@@ -62,7 +62,7 @@ function cost(manifest, metrics) {
     `${capacity.relaxation_steps} steps of relaxation in ${short(metrics.wall_s?.total ?? 0)} s of wall clock`
   ];
   const fall = run.times.filter((t) => t > (push.states - 0.5) * push.step).length;
-  lines.push(`${run.times.length} frames shown${run.every > 1 ? `, each ${run.every}th of the run` : ''}${fall ? `, ${fall} of them of the fall` : ''}`);
+  lines.push(`${run.times.length} frames shown${run.every > 1 ? `, each ${run.every}th of the run and the last` : ''}${fall ? `, ${fall} of them of the fall` : ''}`);
   return card('', 'Run', `${capacity.kind === 'tilt' ? 'Tilt' : 'Push'} by ${capacity.states} states of equilibrium`, lines);
 }
 

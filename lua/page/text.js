@@ -69,7 +69,7 @@ function trustCard(metrics) {
 function costCard(manifest, metrics) {
   const lines = [`Gravity ${short(Math.hypot(...manifest.gravity_m_s2))} m/s² at rest`, `Time step ${short(manifest.dt_s)} s`];
   if (metrics) lines.push(`${metrics.steps} steps in ${short(metrics.wall_s?.total ?? 0)} s of wall clock`);
-  lines.push(`${run.times.length} frames shown${run.every > 1 ? `, each ${run.every}th of the run` : ''}`);
+  lines.push(`${run.times.length} frames shown${run.every > 1 ? `, each ${run.every}th of the run and the last` : ''}`);
   return card('', 'Run', `${short(metrics?.time_s ?? run.times.at(-1))} s of ${short(manifest.duration_s)} s simulated`, lines);
 }
 

@@ -186,7 +186,7 @@ void add_others(CLI::App& app, CommandLine& line) {
       ->delimiter(',')
       ->check(CLI::IsMember({"gltf", "vtu", "xdmf", "hdf5", "obj", "csv"}));
   exported.add_option("--time", line.exported.time, "only this span, s")->type_name("T0:T1");
-  exported.add_option("--every", line.exported.every, "every N-th frame")->check(within(1, 1000000));
+  exported.add_option("--every", line.exported.every, "every N-th frame, and the last")->check(within(1, 1000000));
   exported.add_option("--at", line.exported.at, "the instant of an OBJ, s (default: the last frame)")->check(within(-1e9, 1e9));
   add_output(exported, line.exported.output, "DIR/export");
 

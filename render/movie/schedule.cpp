@@ -38,6 +38,7 @@ Schedule schedule_of(const Movie& movie, const std::vector<double>& recorded) {
   if (movie.frames.empty()) {
     const double step = 1 / (movie.fps * movie.slow);
     evenly(s, from, step, 1 + static_cast<int>((to - from) / step + 1e-6));
+    if (to - s.times.back() > 0.25 * step) s.times.push_back(to);  // what a run came to is worth a picture, the rest of a step is not
     return s;
   }
   if (movie.frames == "every") {

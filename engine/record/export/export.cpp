@@ -55,7 +55,9 @@ ExportedRun read_exported_run(const std::string& dir, double from, double to, in
   const std::vector<double>& times = reader.times();
   int within = 0;
   for (std::size_t i = 0; i < times.size(); ++i) {
-    if (times[i] < from - 1e-9 || times[i] > to + 1e-9 || within++ % every != 0) continue;
+    if (times[i] < from - 1e-9 || times[i] > to + 1e-9) continue;
+    const bool last = i + 1 == times.size() || times[i + 1] > to + 1e-9;
+    if (within++ % every != 0 && !last) continue;
     run.frames.push_back(reader.read(static_cast<int>(i)));
     const std::size_t n = run.frames.size();
     hold_last_pose(run.frames.back(), n > 1 ? &run.frames[n - 2] : nullptr, run.scene);

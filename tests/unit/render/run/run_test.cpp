@@ -85,6 +85,13 @@ TEST_CASE("a movie shows the instants asked for", "[render][schedule]") {
   Schedule s = schedule_of(movie, recorded());
   CHECK(s.times.size() == 101);
   CHECK(s.times.back() == Approx(4));
+  std::vector<double> stopped = recorded();  // by a collapse
+  stopped.push_back(4.025);
+  s = schedule_of(movie, stopped);
+  CHECK(s.times.size() == 102);
+  CHECK(s.times.back() == 4.025);
+  stopped.back() = 4.001;  // by a last step that is not quite at the duration
+  CHECK(schedule_of(movie, stopped).times.size() == 101);
   movie.slow = 4;
   s = schedule_of(movie, recorded());
   CHECK(s.times.size() == 401);
