@@ -15,11 +15,12 @@
 // What friction takes beyond the current pressure is lent: the impulse is kept, and while the pressure is above its mean, friction stays
 // at the mean until it is paid back. So over some hops friction is Coulomb's. The greater of mean and current pressure alone, without
 // paying back, would be more than either in the mean: a wall of undamped mortar on a cracked bed, whose pressure trembles by its own size,
-// stood under 1 g at mu = .6. No more is lent than the mean pressure gives in a few hops, so a bed that is unloaded for good lets go, and
-// shaking that is slower than the hops moves it as Coulomb's law does. Low columns come to rest by their dashpots and lend less;
-// some hops must be lent all the same, or a wall of undamped mortar creeps as it trembles (V62). The mean starts from zero: a mean that
-// starts with the blow of a landing face would lend a multiple of the weight. All scales derive from d and g: the model has no length, time
-// or speed of its own. sqrt(d / g) of a column, its time of a hop, says all.
+// stood under 1 g at mu = .6. No more is lent than what the pressure now lacks of its mean gives in a few hops: a bed that is unloaded for
+// good lets go, and shaking that is slower than the hops moves it as Coulomb's law does (V63). Low columns come to rest by their dashpots
+// and are lent less; some hops must be lent all the same, or a wall of undamped mortar creeps as it trembles (V62), and a stack that plates
+// have fallen onto (h35). The mean starts from zero: a mean that starts with the blow of a landing face would lend a multiple of the
+// weight. All scales derive from d and g: the model has no length, time or speed of its own. sqrt(d / g) of a column, its time of a hop,
+// says all.
 #pragma once
 
 namespace erbs {
@@ -27,12 +28,12 @@ namespace erbs {
 inline constexpr double interlock_gap = 100;    // times d: largest gap
 inline constexpr double interlock_time = 100;   // times sqrt(d / g): averaging time; the structure hops with a period of about 5
 inline constexpr double interlock_speed = 120;  // times sqrt(g d): largest slip rate
-inline constexpr double interlock_loan = 8;     // times sqrt(d / g): the mean pressure is lent at most so long
+inline constexpr double interlock_loan = 8;     // times sqrt(d / g): what lacks of the mean pressure is lent at most so long
 inline constexpr int interlock_every = 8;       // steps between updates of the mean pressure
 
 // Of the column of blocks through a joint or contact; 0: no interlock.
 struct Hop {
-  double time = 0, loan = 0;  // s, sqrt(d / g); over which the mean pressure may be lent
+  double time = 0, loan = 0;  // s, sqrt(d / g); over which what lacks of the mean pressure may be lent
 };
 
 // What is common to all joints in a step; without gravity there is no interlock.

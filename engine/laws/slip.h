@@ -90,7 +90,7 @@ template <class T, class M>
 ERBS_INLINE T interlocked_stress(const Interlock<T>& lock, T& mean, T lent, T gap, T stress, M slow) {
   if (lock.updates) mean = mean + (stress - mean) * lock.rate;
   const T held = select(lent > 0, max(mean, stress - lent * (lock.dt > 0 ? 1 / lock.dt : 0)), stress);
-  return select(mean > stress, select((gap < lock.gap) & slow & (lent < lock.loan * mean), mean, stress), held);
+  return select(mean > stress, select((gap < lock.gap) & slow & (lent < lock.loan * (mean - stress)), mean, stress), held);
 }
 
 // What is lent after this step, in which friction followed the pressure `held` and was that of the pressure `used` (Pa).

@@ -8,11 +8,12 @@ namespace {
 
 constexpr double steepest = 0.7;  // least cosine between gravity and the normal of a face on which a block lies
 // Times `Hop::time`: of a low column of so many courses or more, ...
-constexpr double low_loan = 4;
-// ... and of a bed without dashpots, where waves tremble along the wall for ever: at 8 a wall of any length creeps below the friction
-// angle, at 20 none does (V62).
+constexpr double low_loan = 3;
+// ... and of a bed without dashpots, where waves tremble along the wall for ever: at 6 a wall creeps below the friction angle, at 20 none
+// does (V62).
 constexpr double undamped_loan = 20;
-// Dashpots bring a low column to rest. A tall one hops on, the longer the taller: courses for each further hop (m04_stack_after_bump).
+// Dashpots bring a low column to rest. A tall one hops on, the longer the taller: courses for each further hop (m04_stack_after_bump). At
+// 3 a stack of 20 plates that have fallen onto each other creeps, at 6 it rests (h35_poured_stack).
 constexpr double courses_of_hop = 3;
 
 std::size_t z(int i) { return std::size_t(i); }

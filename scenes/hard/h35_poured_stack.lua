@@ -11,7 +11,7 @@ local plates, thickness, length = param("plates", 20, ""), param("thickness", 0.
 local gap = param("gap", 0.05, "between two plates, of their thickness")
 local share, mu, kn = param("share", 0.7, "of the angle of friction"), param("mu", 0.6, ""), param("kn", 1e10, "[Pa/m]")
 local restitution, duration = param("restitution", 0.3), param("duration", 5, "[s]")
-family({ plates = { 2, 10 }, gap = { 0.009, 0.011, 0.02 }, share = { 0.3, 0.8 }, mu = { 0.3, 1 }, kn = { 1e9, 1e11 }, restitution = { 0.05 }, thickness = { 0.02, 0.1 } },
+family({ plates = { 2, 10, 16 }, gap = { 0.009, 0.011, 0.02 }, share = { 0.3, 0.8, 0.9 }, mu = { 0.3, 1 }, kn = { 1e9, 1e11 }, restitution = { 0.05 }, thickness = { 0.02, 0.1 } },
   { combinations = 12 })
 local slope = share * math.atan(mu)
 if math.tan(slope) * plates * thickness > 0.5 * length then error("the weight of the stack passes beside its foot; make it longer or lower share", 0) end

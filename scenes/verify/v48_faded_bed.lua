@@ -39,7 +39,7 @@ for i, r in ipairs { 1, 0.5, share, 0.05 } do
       between = { "base_" .. name, name }, rule = rule, points = { 3, 3 },
     }
     recorder { name = name, quantity = "normal_force", blocks = { "base_" .. name }, others = { name } }
-    recorder { name = name .. "_x", quantity = "shear_force", blocks = { "base_" .. name }, others = { name } }
+    recorder { name = name .. "_x", quantity = "shear_force", blocks = { "base_" .. name }, others = { name }, axis = "x" }
     metric("force_" .. name, "", function(run) return math.abs(run.last(name .. "_normal_N")) / (r * kn * area * depth) end)
     expect("metrics.force_" .. name, 1, { abs = 1e-6, source = "kn_cracked A depth" })
     metric("shear_" .. name, "", function(run) return math.abs(run.last(name .. "_x_shear_N")) / (mu * r * kn * area * depth) end)
