@@ -40,8 +40,6 @@ void check_unused(const Recorder& r, const std::function<void(const std::string&
     say(fmt::format("{} is no quantity of joints, which have another side; leave out others and other_group", q));
   if (r.has_point && (ground || count || joint)) say(fmt::format("point goes with quantities of blocks, not with {}; leave it out", q));
   if (r.frame == "abs" && !is<BlockMotion>(q)) say(fmt::format("frame goes with the motion of blocks, not with {}; leave it out", q));
-  if (r.axis != Recorder{}.axis && (count || (joint && q != "joint_moment")))
-    say(fmt::format("axis goes with vectors, and {} has no direction to choose; leave it out", q));
 }
 
 void check_one(const Recorder& r, const std::set<std::string>& blocks, std::vector<std::string>& mistakes) {

@@ -112,7 +112,6 @@ TEST_CASE("what a scene says wrong is one message with its place and remedy", "[
       {"recorder{ name = 'r', quantity = 'opening', block = 'b1', point = { 0, 0, 1 } }",
        {at, "point goes with quantities of blocks", "leave it out"}},
       {"recorder{ name = 'r', quantity = 'momentum', frame = 'abs' }", {at, "frame goes with the motion of blocks", "leave it out"}},
-      {"recorder{ name = 'r', quantity = 'slip', block = 'b1', axis = 'x' }", {at, "axis goes with vectors", "leave it out"}},
       {"damping{ mass = 1 } damping{ joint_ratio = .02 }", {at, "damping: it was given before, at ", "scene.lua:7; put all keys into one"}},
       {"gravity(9.81) gravity{ 0, 0, -1.6 }", {at, "gravity: it was given before, at ", "scene.lua:7; keep one"}},
       {"building{ plan = { 2, 2 }, courses = 2, brick = { length = .25, width = .12, height = .06 }, joint = .01, walls = { 'a', 'b' } }",
