@@ -13,6 +13,9 @@ constexpr double default_tilt_step = 0.5 * pi / 180, default_tilt_end = pi / 3; 
 constexpr double displacement_steps = 50;
 constexpr int parts_at_peak = 8, most_parts = 4096;
 constexpr double nearby = 2;  // widths of the bracket
+constexpr double stiffer = 8;
+constexpr double fall_of_step = 0.02;  // of the multiplier, in a step along a curve that falls, if that is more than a whole step rises
+constexpr double flat = 0.5;           // slope of a curve that falls, over the stiffness of a machine that follows it
 
 }  // namespace
 
@@ -56,7 +59,8 @@ MachinePath::MachinePath(const PushSettings& push, double height, double elastic
       step(push.displacement_step > 0 ? push.displacement_step : push.displacement / displacement_steps),
       bracket(push.bracket) {
   // A rigid block of height h on its edge loses less than 2 / h of its weight per displacement of its top.
-  stiffness = std::max(std::min(2 * (push.step > 0 ? push.step : default_step) / step, elastic), 10 / height);
+  stiffness = soft = std::max(std::min(2 * (push.step > 0 ? push.step : default_step) / step, elastic), 10 / height);
+  stiff = std::isfinite(elastic) ? std::max(elastic, soft) : soft;
 }
 
 bool MachinePath::passes_peak(double displaced) const {
@@ -72,11 +76,26 @@ bool MachinePath::passes_peak(double displaced) const {
 std::string MachinePath::leap_text(double displaced) const {
   return fmt::format(
       "the push leaps from {:.4g} to {:.4g} mm, no state between is known: the structure weakens faster than the loading machine "
-      "is stiff; say displacement_step = {:.1g} (m), the machine stiffens as it is shortened",
-      1e3 * displacement, 1e3 * displaced, 0.1 * step);
+      "is stiff, and stiffer than the intact structure it cannot be",
+      1e3 * displacement, 1e3 * displaced);
 }
 
-void MachinePath::refine() { parts *= parts_at_peak, left = 2 * parts_at_peak; }
+void MachinePath::repeat(double displaced) {
+  if (passes_peak(displaced)) {
+    parts *= parts_at_peak;
+  } else {
+    take_stiffness(std::min(stiffer * stiffness, stiff));
+    parts = parts_of_fall();
+  }
+  left = 2 * parts_at_peak;
+}
+
+int MachinePath::parts_of_fall() const {
+  return int(std::ceil(stiffness * step / std::max(soft * step, fall_of_step * std::fabs(multiplier))));
+}
+
+// Under the same load.
+void MachinePath::take_stiffness(double to) { stiffness = to, extension = displacement + multiplier / stiffness; }
 
 bool MachinePath::bracketed() const { return above && stiffness * (*above - extension) <= std::max(bracket * std::fabs(multiplier), 1e-9); }
 
@@ -90,7 +109,13 @@ void MachinePath::found(double displaced) {
   if (displaced != displacement) slope = (now - multiplier) / (displaced - displacement);
   peaked = peaked || (parts > 1 && now < multiplier);
   extension = to, before = multiplier, multiplier = now, displacement = displaced;
-  if (parts > 1 && --left == 0) parts = 1, before = multiplier - stiffness * step;  // a step ahead of the next bend
+  if (parts == 1 || --left > 0) return;
+  if (stiffness > soft && slope < -flat * soft) {  // it would leap once more
+    parts = parts_of_fall(), left = 1;
+  } else {
+    take_stiffness(soft);
+    parts = 1, before = multiplier - stiffness * step;  // a step ahead of the next bend
+  }
 }
 
 }  // namespace erbs::analysis

@@ -39,15 +39,17 @@ struct LoadPath {
 
 // Displacement control: the load grows with the extension of a loading machine, multiplier = stiffness (extension - displacement of the
 // monitored point). The machine is stiffer than a rigid block on its edge is weak, so that each of its extensions has one state of
-// equilibrium; beds that soften may be weaker still, and a leap over their states is told (`leaps`). All other freedoms are free. It is no
-// stiffer than the intact structure: where it pushes one block and looks at another, a stiff machine would drive waves between the two. The
-// displacement itself follows within a step. Until the peak is passed, a step in which the curve bends down is repeated in eight parts, and
-// one of these in eight again where it falls, as after a brittle crack, while the curve might have risen by more than the bracket before. A
-// part of the structure that the monitored point has no share in may come apart all the same: the interval to the first extension without
-// equilibrium is halved until the multiplier there is known as narrowly as asked.
+// equilibrium. Beds that soften may be weaker still: a step that leaps over their states, is
+// repeated in parts with a machine eight times as stiff, until the curve is flat again. All other freedoms are free. The machine is no
+// stiffer than the intact structure: where it pushes one block and looks at another, it would drive waves between the two. A leap that is
+// left then is told (`leaps`). The displacement itself follows within a step. Until the peak is passed, a step in which the curve bends
+// down is repeated in eight parts, and one of these in eight again where it falls, as after a brittle crack, while the curve might have
+// risen by more than the bracket before. A part of the structure that the monitored point has no share in may come apart all the same: the
+// interval to the first extension without equilibrium is halved until the multiplier there is known as narrowly as asked.
 struct MachinePath {
   double end = 0, step = 0;     // m
-  double stiffness = 0;         // 1/m
+  double stiffness = 0;         // 1/m, now, ...
+  double soft = 0, stiff = 0;   // ... at its least and at its most
   double bracket = 0;           // relative, of the multiplier at which the structure comes apart, and of a peak
   double extension = 0;         // m
   std::optional<double> above;  // m, an extension without equilibrium
@@ -63,15 +65,21 @@ struct MachinePath {
   bool bracketed() const;
   double next() const;  // the last step ends where a curve that goes on with its slope reaches the end
   double load(double extended, double displaced) const { return stiffness * (extended - displaced); }
-  bool passes_peak(double displaced) const;  // within this step, which then is repeated in parts
+  // Whether this step is to be repeated in parts.
+  bool goes_too_far(double displaced) const { return passes_peak(displaced) || (leaps(displaced) && !above && stiffness < stiff); }
+  void repeat(double displaced);
   // Further than the machine moves by itself: past its last state the structure weakens faster than the machine is stiff, and no state
   // between is known.
   bool leaps(double displaced) const { return displaced - displacement > std::max(most_leap * step, least_leap * end); }
   std::string leap_text(double displaced) const;
   static constexpr double most_leap = 3, least_leap = 0.05;  // steps; of the displacement asked for
-  void refine();
   void found(double displaced);
   void failed() { above = next(); }
+
+ private:
+  bool passes_peak(double displaced) const;
+  int parts_of_fall() const;
+  void take_stiffness(double to);
 };
 
 // In two words of a checkpoint.
@@ -97,6 +105,7 @@ void each(P& p, F&& f) {
 template <class P, class F>
 requires std::is_same_v<std::remove_const_t<P>, MachinePath>
 void each(P& p, F&& f) {
+  f("machine_stiffness", p.stiffness);
   f("machine_extension", p.extension);
   f("machine_multiplier", p.multiplier);
   f("machine_displacement", p.displacement);

@@ -62,8 +62,8 @@ class PushRun {
   std::optional<RunWriter> writer_;
   std::optional<CsvWriter> curve_;
   bool gravity_alone_ = false;
-  bool passed_peak_ = false;  // control by displacement: this step goes too far past the peak
-  std::string fall_;          // how far the fall after the last step has come, for the progress line; empty before it
+  bool too_far_ = false;  // control by displacement: this step is to be repeated in parts
+  std::string fall_;      // how far the fall after the last step has come, for the progress line; empty before it
   NamedMechanism mechanism_;
   std::vector<WallMechanism> walls_;
   std::optional<LimitBeside> limit_;
@@ -126,8 +126,8 @@ bool PushRun::record(const Solver& solver, const Relaxed& now) {
   const double began = seconds();
   CurvePoint p = curve_point(run_.model, run_.state, *relaxation_, solver, push_);
   p.unbalanced = now.unbalanced, p.steps = double(now.steps);
-  passed_peak_ = controlled() && so_far_.machine.passes_peak(p.displacement);
-  if (passed_peak_) return true;
+  too_far_ = controlled() && so_far_.machine.goes_too_far(p.displacement);
+  if (too_far_) return true;
   const Snapshot state = snapshot(solver);
   curve_->row(curve_row(p));
   curve_->flush();
@@ -219,15 +219,16 @@ void PushRun::control_on() {
   while (!machine.done() && out_.metrics.status == "completed") {
     const State before = run_.state;
     const double from = machine.extension, to = machine.next();
+    relaxation_->hold_by_machine(machine.stiffness);
     const Relaxed r = attempt([&, from, to](double ramp, double u) { return machine.load(from + ramp * (to - from), u); });
     if (r.ending == Ending::stopped || r.ending == Ending::broken) return;
     if (!r.found()) {
       machine.failed();
       writer_->log(fmt::format("extension {:.6g} m: {} after {} steps", to,
                                r.ending == Ending::collapse ? "a part that the machine does not hold comes apart" : "creeps", r.steps));
-    } else if (passed_peak_) {
+    } else if (too_far_) {
+      machine.repeat(relaxation_->monitor().along(run_.state.pose));
       run_.state = before;
-      machine.refine();
       continue;
     } else {
       const double displaced = relaxation_->monitor().along(run_.state.pose);

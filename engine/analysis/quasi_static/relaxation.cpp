@@ -60,11 +60,12 @@ std::size_t z(int i) { return std::size_t(i); }
 // local: a force of 0.8 times the unbalanced one against the motion (Cundall 1987), with a shorter step.
 class Damper {
  public:
-  // `faster`: by how much the loading machine raises the frequency.
-  Damper(const std::string& name, double period, double faster, bool at_once, Model& model)
+  // `faster`: by how much the loading machine raises the frequency. `swing`: 1/s, of the structure on the machine alone.
+  Damper(const std::string& name, double period, double faster, double swing, bool at_once, Model& model)
       : model_(model),
         period_(period),
         most_(4 * pi / period * faster),
+        least_(std::min(std::max(least_share * most_, 2 * swing), most_)),
         patience_(at_once ? 0 : patience * period),
         adaptive_(name == "adaptive"),
         kinetic_(name == "kinetic"),
@@ -99,8 +100,8 @@ class Damper {
       size += model_.mass[z(b)] * moved.squaredNorm();
     }
     if (size > 0) {
-      const double cracking = std::clamp(cracking_share * patience * period_ / s.time.t, least_share, cracking_share) * most_;
-      const double to = power > 0 ? std::clamp(2 * std::sqrt(power / size), least_share * most_, most_) : cracking;
+      const double cracking = std::max(std::min(patience * period_ / s.time.t, 1.0) * cracking_share * most_, least_);
+      const double to = power > 0 ? std::clamp(2 * std::sqrt(power / size), least_, most_) : cracking;
       model_.damping.mass *= std::pow(to / model_.damping.mass, follows);
     }
     u_ = s.pose.u;
@@ -131,6 +132,7 @@ class Damper {
   Model& model_;
   const double period_;    // s
   const double most_;      // 1/s, critical damping of the lowest mode
+  const double least_;     // 1/s; with a machine, what breaks loose does not swing beyond where friction holds it
   const double patience_;  // s, until short waves are braked as well
   const bool adaptive_, kinetic_, critical_;
   bool brakes_ = false;
@@ -185,6 +187,7 @@ Relaxation::Relaxation(const PushSettings& push, const std::vector<std::string>&
     const double smaller = std::min(1.0, model_.analysis.dt_fraction / Analysis{}.dt_fraction);  // where the scene says so
     range_.longest = dt_ = smaller * (push.relaxation == "local" ? local_step : 0.9) * bounds.cracked;
   }
+  free_dt_ = dt_;
   soften_inertia();
   const double g = run.model.gravity.norm() > 0 ? run.model.gravity.norm() : standard_g;
   longest_ = std::max(longest * period_, longest_fall * std::sqrt(height_of(run.model) / g));
@@ -195,29 +198,31 @@ void Relaxation::soften_inertia() {
   std::vector<Vec3> along(z(model_.nblock));  // N, of 1 m/s2 on the masses of the relaxation
   for (int b = 0; b < model_.nblock; ++b) along[z(b)] = model_.mass[z(b)] * push_.direction;
   const ElasticPush elastic = elastic_push(model_, run_.state, along);
-  double rate = elastic.frequency * elastic.frequency;  // 1/s2
+  elastic_rate_ = elastic.frequency * elastic.frequency;
   const Freedom freedom = grounded_freedoms(model_, run_.state);
-  const bool machine = push_.control == "displacement";
-  if (rate > 0 && machine) hold_by_machine(freedom);
-  if (rate > 0 && push_.inertia == "scaled" && model_.analysis.solver == "leapfrog") {
-    const double steps = machine ? controlled_steps : quick_steps;
-    const double quick = std::pow(2 * pi / (steps * dt_), 2) / machine_;
-    if (rate * slow * slow < quick) inertia_.emplace(model_, run_.state, freedom, std::max(least_piece, freedom.count / 6 / most_pieces));
+  const bool machine = push_.control == "displacement" && elastic_rate_ > 0;
+  if (machine) take_machine(freedom);
+  const double stiffness = machine ? loading_machine().stiffness : 0;
+  hold_by_machine(stiffness);
+  if (elastic_rate_ > 0 && push_.inertia == "scaled" && model_.analysis.solver == "leapfrog") {
+    if (elastic_rate_ * slow * slow < quick_rate())
+      inertia_.emplace(model_, run_.state, freedom, std::max(least_piece, freedom.count / 6 / most_pieces));
     if (inertia_ && !inertia_->definite()) inertia_.reset();
     if (inertia_) {
       model_.release_every = release_rarely;
-      inertia_->set_rate(quick_ = quick);
-      rate += quick * inertia_->share(elastic.force, elastic.motion);
-      range_.longest = dt_ /= std::sqrt(1 + 0.25 * quick * dt_ * dt_);
+      share_ = inertia_->share(elastic.force, elastic.motion);
+      hold_by_machine(stiffness);
     }
   }
-  period_ = std::max(rate > 0 ? 2 * pi / std::sqrt(rate) : 0, default_step_count * dt_);
 }
 
-// The loading machine stiffens what it controls: pieces of the structure swing faster by the root of 1 + its stiffness over that of the
-// structure. Its force lags behind the displacement by up to `control_every` steps, which must be short beside the swing on the machine
-// alone, of the monitored block and of the whole structure: the lag feeds that swing.
-void Relaxation::hold_by_machine(const Freedom& freedom) {
+double Relaxation::quick_rate() const {
+  const double steps = push_.control == "displacement" ? controlled_steps : quick_steps;
+  return std::pow(2 * pi / (steps * dt_), 2) / machine_;
+}
+
+// What a loading machine feels of the intact structure.
+void Relaxation::take_machine(const Freedom& freedom) {
   const int b = monitor_.block(), i = freedom.first[z(b)];
   if (i < 0) return;
   const std::vector<Vec3> load = loads_.slope();
@@ -229,10 +234,26 @@ void Relaxation::hold_by_machine(const Freedom& freedom) {
   pose.u[z(b)] += small * elastic.motion.segment<3>(i);
   pose.q[z(b)] = rotation(small * Vec3(elastic.motion.segment<3>(i + 3))) * Quat(pose.q[z(b)]);
   elastic_slope_ = small / std::fabs(monitor_.along(pose) - before);
-  const double stiffness = loading_machine().stiffness, block = stiffness * model_.inverse_mass[z(b)] * load[z(b)].dot(push_.direction);
+  loaded_rate_ = elastic.frequency * elastic.frequency;
+  on_block_ = std::fabs(model_.inverse_mass[z(b)] * load[z(b)].dot(push_.direction));
+}
+
+// The loading machine stiffens what it controls: pieces of the structure swing faster by the root of 1 + its stiffness over that of the
+// structure. Its force lags behind the displacement by up to `control_every` steps, which must be short beside the swing on the machine
+// alone, of the monitored block and of the whole structure: the lag feeds that swing.
+void Relaxation::hold_by_machine(double stiffness) {
+  dt_ = free_dt_;
   machine_ = 1 + stiffness / elastic_slope_;
-  const double swing = std::sqrt(std::max(std::fabs(block), (machine_ - 1) * elastic.frequency * elastic.frequency));  // 1/s
-  if (swing > 0) range_.longest = dt_ = std::min(dt_, longest_lag / (control_every * swing));
+  const double swing = std::sqrt(std::max(stiffness * on_block_, (machine_ - 1) * loaded_rate_));  // 1/s
+  if (swing > 0) dt_ = std::min(dt_, longest_lag / (control_every * swing));
+  double rate = elastic_rate_;
+  if (inertia_) {
+    inertia_->set_rate(quick_ = quick_rate());
+    rate += quick_ * share_;
+    dt_ /= std::sqrt(1 + 0.25 * quick_ * dt_ * dt_);
+  }
+  if (swing > 0 || inertia_) range_.longest = dt_;
+  period_ = std::max(rate > 0 ? 2 * pi / std::sqrt(rate) : 0, default_step_count * dt_);
 }
 
 void Relaxation::start(State& s, double dt) const {
@@ -299,7 +320,8 @@ Relaxed Relaxation::relax(State& s, const LoadCourse& course, const Seen& seen, 
   start(s, dt_ / finer);
   const BlockVec3 from = s.pose.u;
   const double monitored = monitor_.along(s.pose);
-  Damper damper(push_.relaxation, period_, machine ? std::sqrt(machine_) : 1, inertia_.has_value(), model_);
+  const double held = machine ? machine_ : 1;
+  Damper damper(push_.relaxation, period_, std::sqrt(held), std::sqrt((held - 1) * loaded_rate_), inertia_.has_value(), model_);
   std::optional<Solver> solver;
   engage(solver, model_, s, range);
   const double check = std::max(period_ / checks, least_check * dt_);
@@ -325,18 +347,16 @@ Relaxed Relaxation::relax(State& s, const LoadCourse& course, const Seen& seen, 
     balanced = done > 1 && out.unbalanced <= push_.unbalanced ? balanced + 1 : 0;
     const bool speeds_up = s.energy.kinetic >= fastest;
     fastest = std::max(fastest, s.energy.kinetic);
-    const double held = machine ? longest_lever * std::fabs(monitor_.along(s.pose) - monitored) : 0;  // m
-    if (far(s, from, speeds_up && way == Way::to_rest ? gone : far_away, held, out)) out.ending = Ending::collapse;
+    const double least = machine ? longest_lever * std::fabs(monitor_.along(s.pose) - monitored) : 0;  // m
+    if (far(s, from, speeds_up && way == Way::to_rest ? gone : far_away, least, out)) out.ending = Ending::collapse;
     else if (balanced >= balanced_checks)
       out.ending = exact || s.energy.residual_worst <= ledger_tolerance ? Ending::equilibrium : Ending::inexact;
     else if (t > longest_) out.ending = Ending::creep;
     if (out.ending == Ending::inexact || !seen(*solver, out) || out.ending != Ending::stopped) break;
   }
-  if (!solver->broken()) {
-    if (inertia_) inertia_->set_rate(0);  // the half of its work that follows a step would be left out of the ledger
-    damper.last_step(s, *solver);
-    if (inertia_) inertia_->set_rate(quick_);
-  }
+  if (inertia_) inertia_->set_rate(0);  // the half of its work that follows a step would be left out of the ledger
+  if (!solver->broken()) damper.last_step(s, *solver);
+  if (inertia_) inertia_->set_rate(quick_);
   take_times(*solver);
   steps_ += s.time.step;
   end(s);

@@ -63,6 +63,7 @@ class Relaxation {
 
   const PushLoads& loads() const { return loads_; }
   MachinePath loading_machine() const { return MachinePath(push_, height_of(run_.model), elastic_slope_); }  // at its start
+  void hold_by_machine(double stiffness);  // 1/m, from the next relaxation on
   const MonitorPoint& monitor() const { return monitor_; }
   const Model& model() const { return model_; }
   double period() const { return period_; }            // s, of the relaxation's structure along the push
@@ -80,7 +81,8 @@ class Relaxation {
   void engage(std::optional<Solver>& solver, const Model& model, State& state, const StepRange& range);
   void take_times(const Solver& solver);
   void soften_inertia();
-  void hold_by_machine(const Freedom& freedom);
+  void take_machine(const Freedom& freedom);
+  double quick_rate() const;  // 1/s2, that of the coarse inertia at the present step
   void start(State& state, double dt) const;
   void end(State& state) const;
   // Whether a block has moved by this share of its smallest edge, and by `least` (m).
@@ -95,12 +97,15 @@ class Relaxation {
   MonitorPoint monitor_;
   StepRange range_;
   std::optional<CoarseInertia> inertia_;
-  double quick_ = 0;                                                // 1/s2, its rate
-  double elastic_slope_ = std::numeric_limits<double>::infinity();  // 1/m, of the multiplier over the displacement of the monitored point
-  double machine_ = 1;               // stiffness of the structure with the loading machine over that without it
-  double dt_ = 0, true_dt_ = 0;      // s
-  double period_ = 0, longest_ = 0;  // s; longest_: of one relaxation
-  std::vector<Vec3> unbalanced_;     // N, at the last check, with the share of the coarse inertia
+  double quick_ = 0, share_ = 0;  // 1/s2, its rate; its share of the elastic energy
+  double elastic_rate_ = 0;       // 1/s2, square of the circular frequency of the intact structure along the push; 0: a mechanism
+  // For a loading machine: 1/m, multiplier over displacement of the monitored point; 1/s2, as `elastic_rate_`, under the pattern; m/s2, of
+  // the monitored block alone under a multiplier of 1.
+  double elastic_slope_ = std::numeric_limits<double>::infinity(), loaded_rate_ = 0, on_block_ = 0;
+  double machine_ = 1;                         // stiffness of the structure with the loading machine over that without it
+  double dt_ = 0, free_dt_ = 0, true_dt_ = 0;  // s; free_dt_: without machine and coarse inertia
+  double period_ = 0, longest_ = 0;            // s; longest_: of one relaxation
+  std::vector<Vec3> unbalanced_;               // N, at the last check, with the share of the coarse inertia
   Profile profile_;
   double searched_ = 0;  // s
 };

@@ -103,8 +103,8 @@ TEST_CASE("the machine passes a peak and goes on behind it", "[push]") {
     const double k = machine.stiffness, to = machine.next();
     double u = k * to / (k + up);  // where the machine and the structure agree
     if (u > 0.001 || machine.displacement > 0.001) u = (k * to - 0.4 * down) / (k - down);
-    if (machine.passes_peak(u)) {
-      machine.refine();
+    if (machine.goes_too_far(u)) {
+      machine.repeat(u);
       continue;
     }
     machine.found(u);
@@ -117,6 +117,35 @@ TEST_CASE("the machine passes a peak and goes on behind it", "[push]") {
   CHECK(peak <= 0.3 + 1e-9);
   CHECK(peak > 0.3 * (1 - push.bracket));
   CHECK(states < 150);
+}
+
+TEST_CASE("a machine stiffens where the curve falls faster than it is stiff, and is soft again behind it", "[push]") {
+  // Up to `peak` with a slope of 1e5 per m, down to .5 at `end`, and flat from there.
+  const double peak = GENERATE(0.9, 5.0), end = GENERATE(1e-3, 5e-3, 0.015), up = 1e5, left = 0.5, most = peak / up;
+  const double down = (peak - left) / (end - most);
+  PushSettings push;
+  push.kind = "pushover", push.control = "displacement", push.displacement = 0.02;
+  MachinePath machine(push, 2, up);
+  const double soft = machine.stiffness;
+  int states = 0, attempts = 0;
+  for (; !machine.done() && attempts < 5000; ++attempts) {
+    const double k = machine.stiffness, to = machine.next();
+    double u = k * to / (k + up);
+    if (u > most || machine.displacement > most) u = k > down ? (k * to - peak - down * most) / (k - down) : end;
+    if (u >= end) u = std::max(end, to - left / k);
+    if (machine.goes_too_far(u)) {
+      machine.repeat(u);
+      continue;
+    }
+    CHECK(u - machine.displacement <= 0.051 * push.displacement);
+    machine.found(u);
+    ++states;
+    CHECK(machine.multiplier == Approx(u > end ? left : u > most ? peak - down * (u - most) : up * u).margin(1e-9));
+  }
+  CAPTURE(peak, end, states, attempts);
+  CHECK(machine.displacement == Approx(push.displacement).epsilon(1e-3));
+  CHECK(machine.stiffness == soft);
+  CHECK(attempts < 1000);
 }
 
 TEST_CASE("a machine whose structure comes apart brackets the load there", "[push]") {
