@@ -39,13 +39,13 @@ struct LoadPath {
 
 // Displacement control: the load grows with the extension of a loading machine, multiplier = stiffness (extension - displacement of the
 // monitored point). The machine is stiffer than a rigid block on its edge is weak, so that each of its extensions has one state of
-// equilibrium. Beds that soften may be weaker still: a step that leaps over their states, is
-// repeated in parts with a machine eight times as stiff, until the curve is flat again. All other freedoms are free. The machine is no
-// stiffer than the intact structure: where it pushes one block and looks at another, it would drive waves between the two. A leap that is
-// left then is told (`leaps`). The displacement itself follows within a step. Until the peak is passed, a step in which the curve bends
-// down is repeated in eight parts, and one of these in eight again where it falls, as after a brittle crack, while the curve might have
-// risen by more than the bracket before. A part of the structure that the monitored point has no share in may come apart all the same: the
-// interval to the first extension without equilibrium is halved until the multiplier there is known as narrowly as asked.
+// equilibrium. Beds that soften may be weaker still: a step that leaps over their states is repeated in parts with a machine eight times as
+// stiff, until the curve is flat again. All other freedoms are free. The machine is no stiffer than the intact structure: where it pushes
+// one block and looks at another, it would drive waves between the two. A leap that is left then is told (`leaps`). The displacement itself
+// follows within a step. Until the peak is passed, a step in which the curve bends down is repeated in eight parts, and one of these in
+// eight again where it falls, as after a brittle crack, while the curve might have risen by more than the bracket before. A part of the
+// structure that the monitored point has no share in may come apart all the same: the interval to the first extension without equilibrium
+// is halved until the multiplier there is known as narrowly as asked.
 struct MachinePath {
   double end = 0, step = 0;     // m
   double stiffness = 0;         // 1/m, now, ...
