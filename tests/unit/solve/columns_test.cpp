@@ -58,7 +58,7 @@ TEST_CASE("a joint hops with the column through it, whatever stands beside it or
   const Prepared alone = built("");
   const Hop hop = of_joint(alone.model, "p1", "p2");
   REQUIRE(hop.time > 0);
-  CHECK(hop.loan == Approx(4 * hop.time));
+  CHECK(hop.loan == Approx(3 * hop.time));
   CHECK(of_joint(alone.model, "base", "p0").time == hop.time);
   const Hop undamped =
       of_joint(built("joint{ between = {'pier', 'pier'}, law = dry{ kn = 1e10, mu = .6, damping = 0 } }\n").model, "p1", "p2");
@@ -76,7 +76,7 @@ TEST_CASE("a joint hops with the column through it, whatever stands beside it or
   for (const std::string& more : {brick(1, 5, 8), stack, steel}) CHECK(of_joint(built(more).model, "p1", "p2").time == hop.time);
   const Prepared beside = built(tower);
   const Hop low = of_joint(beside.model, "p1", "p2"), high = of_joint(beside.model, "q1", "q2");
-  CHECK(low.loan == Approx(4 * low.time));
+  CHECK(low.loan == Approx(3 * low.time));
   CHECK(high.loan == Approx(20. / 3 * high.time));
   CHECK(of_joint(beside.model, "p1", "q1").loan == Approx(low.loan).epsilon(0.5));  // the lower one of both
   const Prepared on_raft = built(raft);

@@ -32,7 +32,7 @@ std::string falling(int levels) {
     material{ name = "brick", density = 1800, friction = 0.6, kn = 1e10 }
     material{ name = "earth", density = 1800, friction = 0.6, kn = 5e8 }
     ground{ size = 20, material = "earth" }
-    wall{ name = "w", at = {0, 0, 0}, length = 1.2, courses = 6, brick = {length = 0.3, width = 0.125, height = 0.1}, joint = 0, quiet = true }
+    wall{ name = "w", at = {0, 0, 0}, length = 1.2, courses = 7, brick = {length = 0.3, width = 0.125, height = 0.1}, joint = 0, quiet = true }
     joint{ law = dry{ kn = 2e11, mu = 0.6 }, between = {"w", "w"} }
     joint{ law = dry{ kn = 2e11, mu = 0.6 }, between = {"w", "ground"} })" +
          pier("brick") + R"(
