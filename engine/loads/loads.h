@@ -12,6 +12,7 @@
 #include <variant>
 
 #include "engine/loads/record/record.h"
+#include "engine/loads/waves/curve.h"
 #include "engine/loads/waves/mp_pulse.h"
 #include "engine/loads/waves/pulse.h"
 #include "engine/loads/waves/ricker.h"
@@ -20,7 +21,7 @@
 
 namespace erbs {
 
-using Wave = std::variant<Sine, HalfSine, FullSine, Pulse, Table, Record, Ricker, FullCosine, MpPulse>;
+using Wave = std::variant<Sine, HalfSine, FullSine, Pulse, Table, Curve, Record, Ricker, FullCosine, MpPulse>;
 
 double value(const Wave& wave, double t);
 double integral(const Wave& wave, double t);          // Int_0^t value: velocity of an acceleration

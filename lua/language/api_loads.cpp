@@ -164,7 +164,9 @@ std::vector<Function> load_functions() {
        "Rotates gravity by an angle about an axis, like a tilting table. The rotation is right-handed: a positive angle about x pulls "
        "towards +y, about y towards -x.",
        load_keys("rad", "axis", "\"x\", \"y\", \"z\" or a vector", false)},
-      {"motion", motion, "{ ... }", "", "Prescribes the displacement of a block along a direction; its other degrees of freedom are fixed.",
+      {"motion", motion, "{ ... }", "",
+       "Prescribes the displacement of a block along a direction; its other degrees of freedom are fixed. A function is followed smoothly; "
+       "the corners of a table_wave are jolts, a curve_wave has none.",
        load_keys("m", "direction", "\"x\", \"y\", \"z\" or a vector", true)},
       {"turning", turning, "{ ... }", "",
        "Prescribes the rotation of a block about an axis. Its position is fixed, unless motion{} prescribes it.", turning_keys},

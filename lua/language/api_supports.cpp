@@ -15,14 +15,14 @@ constexpr int ramp_points = 200;   // intervals of the ramp; the speed at a kink
 // From 0 to 1 with speed and acceleration zero at both ends: 10 x^3 - 15 x^4 + 6 x^5.
 double smooth(double x) { return x * x * x * (10 + x * (6 * x - 15)); }
 
-Table ramp(double by, double start, double duration) {
+Curve ramp(double by, double start, double duration) {
   std::vector<double> times, values;
   for (int i = 0; i <= ramp_points; ++i) {
     const double x = static_cast<double>(i) / ramp_points;
     times.push_back(start + duration * x);
     values.push_back(by * smooth(x));
   }
-  return make_table(std::move(times), std::move(values), true);
+  return make_curve(std::move(times), std::move(values), true);
 }
 
 // One entry of `supports`: a fixed block, or all blocks of a group, which move as one.

@@ -12,12 +12,19 @@ namespace {
 
 void finish(Call&, Arguments&, auto&) {}
 
-void finish(Call&, Arguments& arguments, Table& wave) {
+// Waves through given points.
+template <class W>
+constexpr bool has_points = std::is_same_v<W, Table> || std::is_same_v<W, Curve>;
+
+template <class W>
+requires has_points<W>
+void finish(Call&, Arguments& arguments, W& wave) {
   std::vector<double> times, values;
   arguments.read("times", times);
   arguments.read("values", values);
   try {
-    wave = make_table(std::move(times), std::move(values), wave.hold);
+    if constexpr (std::is_same_v<W, Table>) wave = make_table(std::move(times), std::move(values), wave.hold);
+    else wave = make_curve(std::move(times), std::move(values), wave.hold);
   } catch (const Error& error) { arguments.mistake(error.what()); }
 }
 
@@ -36,6 +43,7 @@ void finish(Call& call, Arguments& arguments, Record& wave) {
 
 size_t points_of(const Record& wave) { return wave.acceleration.times.size(); }
 size_t points_of(const Table& wave) { return wave.line.times.size(); }
+size_t points_of(const Curve& wave) { return wave.times.size(); }
 
 template <class W>
 int make_wave(Call& call) {
@@ -50,14 +58,14 @@ int make_wave(Call& call) {
     push_wave(call.lua, call.context, Pulse{0, 0, 0});
     return 1;
   }
-  if constexpr (std::is_same_v<W, Table> || std::is_same_v<W, Record>) call.context.took(4 * sizeof(double) * points_of(wave));
+  if constexpr (has_points<W> || std::is_same_v<W, Record>) call.context.took(5 * sizeof(double) * points_of(wave));
   push_wave(call.lua, call.context, std::move(wave));
   return 1;
 }
 
 template <class W>
 Keys wave_keys() {
-  if constexpr (std::is_same_v<W, Table>)
+  if constexpr (has_points<W>)
     return joined({{{"times", "numbers", "s", "increasing, at least two", -1e9, 1e9, true},
                     {"values", "numbers", "", "one for each time, in the unit of the load", -unbounded, unbounded, true}},
                    keys_of<W>()});

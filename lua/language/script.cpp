@@ -87,10 +87,15 @@ void evaluate_overrides(lua_State* lua, Context& context) {
   }
 }
 
-// Samples the waves that are Lua functions; the duration is known now.
+// Samples the waves that are Lua functions; the duration is known now. What a block is made to follow must be smooth.
 void sample_waves(lua_State* lua, Context& context) {
-  for (const Sampling& one : context.samplings)
-    context.scene.loads[one.load].wave = sampled(lua, context, one.function, context.scene.analysis.duration, one.sample, one.place);
+  for (const Sampling& one : context.samplings) {
+    Load& load = context.scene.loads[one.load];
+    Samples s = sampled(lua, context, one.function, context.scene.analysis.duration, one.sample, one.place);
+    const bool path = load.kind == Load::Kind::motion || load.kind == Load::Kind::turning;
+    if (path) load.wave = make_curve(std::move(s.times), std::move(s.values), true);
+    else load.wave = make_table(std::move(s.times), std::move(s.values), true);
+  }
 }
 
 void resolve_groups(Context& context) {

@@ -75,12 +75,12 @@ std::optional<Wave> Arguments::wave(const std::string& key, double duration, dou
   if (!is_function(key)) return wave(key);
   const int reference = function(key);
   if (!(duration > 0)) return std::nullopt;  // a mistake that is reported elsewhere
-  const Table table = sampled(lua_, *context_, reference, duration, sample, place_);
+  Samples samples = sampled(lua_, *context_, reference, duration, sample, place_);
   luaL_unref(lua_, LUA_REGISTRYINDEX, reference);
-  return table;
+  return make_table(std::move(samples.times), std::move(samples.values), true);
 }
 
-Table sampled(lua_State* lua, Context& context, int function, double duration, double sample, const Place& place) {
+Samples sampled(lua_State* lua, Context& context, int function, double duration, double sample, const Place& place) {
   const double steps = std::max(1.0, std::ceil(duration / sample));
   if (steps > 20e6) throw Error(fmt::format("a wave sampled {:g} times is too long; raise sample", steps), place);
   const auto n = static_cast<size_t>(steps) + 1;
@@ -97,7 +97,7 @@ Table sampled(lua_State* lua, Context& context, int function, double duration, d
     values[i] = lua_tonumber(lua, -1);
     lua_pop(lua, 1);
   }
-  return make_table(std::move(times), std::move(values), true);
+  return {std::move(times), std::move(values)};
 }
 
 int Arguments::function(const std::string& key) {

@@ -122,7 +122,10 @@ void push_wave(lua_State* lua, Context& context, Wave wave);
 void open_values(lua_State* lua);
 
 // Samples a Lua function of time (a reference in the registry) from 0 to `duration`, linear between samples. Throws Error.
-Table sampled(lua_State* lua, Context& context, int function, double duration, double sample, const Place& place);
+struct Samples {
+  std::vector<double> times, values;
+};
+Samples sampled(lua_State* lua, Context& context, int function, double duration, double sample, const Place& place);
 
 // Description of the value at `index`, for messages: 'the string "1800"'.
 std::string described(lua_State* lua, int index);

@@ -22,6 +22,8 @@ std::vector<Wave> examples() {
           Pulse{4, -0.5, 0.8},
           make_table({0.1, 0.4, 0.55}, {1, -3, 2}, false),
           make_table({-0.2, 0.4, 0.55}, {1, -3, 2}, true),
+          make_curve({0.1, 0.4, 0.55, 0.9}, {1, -3, 2, 0.7}, false),
+          make_curve({-0.2, 0.4, 0.55}, {1, -3, 2}, true),
           record,
           Ricker{2, 0.7, -2.2},
           Ricker{-1, 0.9, -1.5},
@@ -162,6 +164,24 @@ TEST_CASE("a table is linear, ends at zero or is held", "[loads]") {
   CHECK_THROWS_WITH(make_table({0, 1}, {0, 0, 0}, false), Catch::Contains("2 times but 3 values"));
   CHECK_THROWS_WITH(make_table({0}, {0}, false), Catch::Contains("at least two"));
   CHECK_THROWS_WITH(make_table({0, 1}, {0, NAN}, false), Catch::Contains("point 2"));
+}
+
+TEST_CASE("a curve through samples of a motion follows it without jolts", "[loads]") {
+  const double w = 2 * pi * 5, h = 1e-3;
+  std::vector<double> times, values;
+  for (int i = 0; i <= 400; ++i) times.push_back(h * i), values.push_back(0.1 * (1 - std::cos(w * h * i)));
+  const Curve curve = make_curve(times, values, true);
+  for (double t = 0.02; t < 0.35; t += 1.37e-4) {
+    const double d = 2e-5, acceleration = (value(curve, t + d) - 2 * value(curve, t) + value(curve, t - d)) / (d * d);
+    CHECK(value(curve, t) == Approx(0.1 * (1 - std::cos(w * t))).margin(1e-9));
+    CHECK(acceleration == Approx(0.1 * w * w * std::cos(w * t)).margin(1e-3 * 0.1 * w * w));
+  }
+  const Curve line = make_curve({0, 2}, {1, 5}, true);
+  CHECK(value(line, 0.5) == Approx(2));
+  CHECK(value(line, -1) == 1);
+  CHECK(value(line, 3) == 5);
+  CHECK(value(make_curve({0, 1, 2}, {0, 1, 0}, false), 2.1) == 0);
+  CHECK_THROWS_WITH(make_curve({0, 1, 1}, {0, 0, 0}, false), Catch::Contains("point 3"));
 }
 
 TEST_CASE("a segment is found in uneven tables", "[loads]") {

@@ -1,0 +1,34 @@
+// Smooth curve through given values: its slope and its curvature have no jump. Displacements that a block is made to follow need it, since
+// every corner of a line is a jolt.
+//
+// Source: natural cubic spline (de Boor 1978, A practical guide to splines, chapter IV).
+#pragma once
+#include "engine/base/field.h"
+#include "engine/loads/waves/polyline.h"
+
+namespace erbs {
+
+struct Curve {
+  std::vector<double> times, values;      // s, and the unit of its load            [points]
+  std::vector<double> bend;               // second derivative, zero at both ends   [points]
+  std::vector<double> area, double_area;  // as in `Polyline`                       [points]
+  bool hold = false;                      // outside the curve the nearest value holds; else zero
+
+  static constexpr std::string_view wave_name = "curve_wave";
+  static constexpr std::string_view help = "A smooth curve through given values at given times.";
+  // The two arrays `times` and `values` are not fields; make_curve takes them.
+  static Fields<Curve> fields() { return {{"hold", &Curve::hold, "", "outside the curve the nearest value holds (default: zero)"}}; }
+};
+
+// Needs increasing times and at least two points. Otherwise throws an Error that counts points from 1.
+Curve make_curve(std::vector<double> times, std::vector<double> values, bool hold);
+
+// loads.h explains the six functions.
+double value(const Curve& wave, double t);
+double area(const Curve& wave, double t);
+double double_area(const Curve& wave, double t);
+double mean(const Curve& wave, double t0, double t1);
+double end_time(const Curve& wave);
+double resolution(const Curve& wave);
+
+}  // namespace erbs
