@@ -26,6 +26,7 @@ struct ContactSettings {
   double settling = 0.2;              // share of critical damping of a settled contact, normal; it fades with the impact speed
   double settling_tangential = 0.05;  // the same of a sticking contact, tangential
   double horizon = 0;                 // s, time before a predicted event can change a step (model/levels.h)
+  double first_fall = 0;              // m, in the first steps of a run, in which bodies have no speed yet; 0 in all others
   double event_budget = 0;            // J, energy error allowed per impact (event_bound.h); 0: no limit
   double blow_share = 1e300;          // of the kinetic energy of a blow: the same (event_bound.h)
   double gravity = 0;                 // m/s2, of interlock (laws/interlock.h); 0: none
@@ -81,7 +82,6 @@ struct PairList {
   std::vector<ContactPair> pair, spare;  // sorted by (a, b, part_a, part_b); room for the next list: new memory would be slow
   double margin = 0.01;                  // m, parts closer than this are listed
   bool valid = false;                    // false after blocks came loose or joints were released: the next search then runs
-  std::vector<Vec3> start;               // m, displacement of each block at the start of the run [nblock]
   std::vector<Vec3> u;                   // m, pose of each block at the last search [nblock]
   std::vector<Mat3> rotation;            //                                          [nblock]
   std::vector<double> travel;            // m, that each block may travel after it before parts farther than the margin may meet  [nblock]
@@ -142,8 +142,8 @@ void each(P& p, F&& f) {
 template <class P, class F>
 requires std::is_same_v<std::remove_const_t<P>, PairList>
 void each(P& p, F&& f) {
-  f("pair", p.pair), f("margin", p.margin), f("valid", p.valid), f("start", p.start), f("u", p.u), f("rotation", p.rotation),
-      f("travel", p.travel), f("searches", p.searches);
+  f("pair", p.pair), f("margin", p.margin), f("valid", p.valid), f("u", p.u), f("rotation", p.rotation), f("travel", p.travel),
+      f("searches", p.searches);
   f("contact_count", p.contact_count), f("bound_at_last_update", p.bound_at_last_update), f("block_bounds", p.block_bounds),
       f("bound_updates", p.bound_updates), f("bound_updated_at", p.bound_updated_at), f("by_blocks", p.by_blocks), f("fast", p.fast);
 }

@@ -121,6 +121,16 @@ double pressed_share(const SmallShape& body, const Vec3& n, double depth, double
   return pressed_share(low, depth, corner_travel);
 }
 
+// True if bodies that are about to touch may gain an energy that matters: at a speed at which it does, or at any speed if the step dt is
+// beyond what the face bears, since it then multiplies the speed by (omega dt)^2.
+bool gains(const ContactPair& pair, const PairFrame& s, const ContactSettings& settings, double speed, double dt) {
+  constexpr double steep = 3;  // omega dt
+  if (speed > settings.reference_speed || settings.first_fall > 0) return true;
+  PairResult whole;
+  face_impact_omega2(pair, s, 1, whole);
+  return dt * dt * std::max(whole.impact_omega2_a, whole.impact_omega2_b) > steep * steep;
+}
+
 // A body that sinks in deeper in its first step than the step allows gains energy. So the step is short enough for the largest face before
 // an impact: if the bodies could touch within the next few steps, at a speed at which this energy matters.
 void impact_bound(const ContactPair& pair, const PairFrame& s, const ContactSettings& settings, const Approach& way, double dt,
@@ -129,10 +139,11 @@ void impact_bound(const ContactPair& pair, const PairFrame& s, const ContactSett
   const double spin = o.w.norm() * s.other->reach + r.w.norm() * s.reference->reach, speed = way.along + spin;
   const double k = pair.law.kn * std::min(s.reference->largest_face, s.other->largest_face);
   result.event_rate = event_rate(k, speed, way.apart, s, settings);
-  const bool soon = speed > settings.reference_speed && way.apart <= look_ahead * speed * dt;
+  const double depth = std::max(look_ahead * speed * dt, settings.first_fall);
+  const bool soon = way.apart <= depth && gains(pair, s, settings, speed, dt);
   double share = 1;
   if ((soon || result.event_rate * dt > 0.5) && !way.n.isZero(0) && corners_known(s)) {
-    const double depth = look_ahead * speed * dt, corner_travel = 2 * spin * way.apart / speed;  // evaluated every few steps only
+    const double corner_travel = speed > 0 ? 2 * spin * way.apart / speed : 0;  // evaluated every few steps only
     if (way.by != SeparatingFeature::other_face)
       share *= pressed_share(s.other->small, o.rotation.transpose() * way.n, depth, corner_travel);
     if (way.by != SeparatingFeature::face)
