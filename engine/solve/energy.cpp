@@ -125,14 +125,25 @@ void Ledger::close(std::span<JointSums> joints, std::span<JointSums> cracked, st
   if (e.started) e.height_flux += std::fabs(e.gravity - gravity_before);
   // The structure's own measure counts once something may open or close, or has changed the step: until then all is exact.
   const double residual_before = e.residual;
-  settle(e, events || state_.time.start_step > 0 ? std::max(floor_, lift_) : floor_, state_.time.t, worst);
+  const double measure = lift_ > 0 ? lift_ : e.reference;
+  settle(e, events || state_.time.start_step > 0 ? std::max(floor_, measure) : floor_, state_.time.t, worst);
   // Closings at the rows of a run add up to the same.
   const bool many = has_many_events(model_, state_);
   if (many) e.event_residual = (due_ ? recent_share : 1) * (e.event_residual + (e.residual - residual_before));
   if (!due_) return;
+  if (!(lift_ > 0)) e.reference = std::max(e.reference, driven_energy());
   const double loss = e.friction + e.fracture + e.crushing + e.damping + e.contact_damping;
   e.reference = std::max(e.reference, std::fabs(e.kinetic) + std::fabs(e.elastic - e.elastic_at_start) + std::max(0.0, loss));
   if (!many) e.event_residual = e.residual;
+}
+
+// J, of all moving blocks at the speed of the fastest driven one: the measure of a structure without weight, which nothing but driven
+// blocks sets in motion.
+double Ledger::driven_energy() const {
+  double square = 0;
+  for (std::size_t b = 0; b < model_.kind.size(); ++b)
+    if (model_.kind[b] == Kind::driven) square = std::max(square, Vec3(state_.motion.v[b]).squaredNorm());
+  return 0.5 * mass_ * square;
 }
 
 }  // namespace erbs

@@ -34,6 +34,7 @@ class Ledger {
 
  private:
   void add(const BlockSums& sums);
+  double driven_energy() const;
 
   const Model& model_;
   State& state_;

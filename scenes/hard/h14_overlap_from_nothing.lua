@@ -3,8 +3,7 @@
 -- What happens   rocker: a block rotates about the end of its joint, which stays open by `ajar`. Its contact body extends by half a joint
 --                around that end, over the mortar of the joint beside it, and dips into the block below. At the release to contact (0.03
 --                rad) it is about 0.14 mm deep, and the joint carries nothing. pusher: a block moves down onto a block to which it has no
---                joint. While the block is held, contact does not see the pair. It becomes loose after it has moved, and by then it is
---                millimetres deep in the other block.
+--                joint, and ends millimetres deep in it.
 -- Source         continuity, as in H14: contact counts the depth from its value at the start. Force of the contact on paper: kn times the
 --                overlap of the lower face since then, w d^2 / sin 2a for a corner at depth d rotated by a, A d for a flat face.
 -- How to run     erbs run scenes/hard/h14_overlap_from_nothing.lua [-D kn=...] [-D ajar=...] [-D deep=...]
