@@ -133,7 +133,7 @@ void Solver::plan_macro_step(const SamplePlan& plan) {
   double least = 1 / time.next_dt;  // cost of a second
   for (int steps = 2; steps <= most_steps(model_); ++steps) {
     const double dt = std::min(time.fast_dt, longest / steps), cost = (1 + (steps - 1) * ContactBound::short_step) / (steps * dt);
-    if (cost < least) least = cost, time.next_dt = dt, time.next_substeps = steps;
+    if (dt > 0 && cost < least) least = cost, time.next_dt = dt, time.next_substeps = steps;  // beyond the end there is no time left
   }
 }
 
