@@ -7,6 +7,7 @@
 #include <tuple>
 #include <utility>
 
+#include "engine/contact/broad/approach.h"
 #include "engine/contact/law/pair_lanes.h"
 
 namespace erbs {
@@ -15,12 +16,7 @@ namespace {
 using std::size_t;
 size_t at(int i) { return static_cast<size_t>(i); }
 
-struct Found {
-  int a, b, part_a, part_b;
-  auto key() const { return std::tie(a, b, part_a, part_b); }
-};
-
-auto key_of(const ContactPair& p) { return std::tie(p.a, p.b, p.part_a, p.part_b); }
+auto key_of(const auto& p) { return std::tie(p.a, p.b, p.part_a, p.part_b); }
 
 // Parts of ordinary size, sorted by the cell of their centre; huge ones (ground, floor slabs) apart.
 struct Grid {
@@ -78,36 +74,31 @@ double reach_of(const ContactShapes& shapes, size_t b) {
   return reach;
 }
 
-// Boxes around the parts, and around where they are after a `travel` (m) of their blocks.
-std::vector<OrientedBox> oriented_boxes(const ContactShapes& shapes, std::span<const ContactBlock> blocks, std::span<const double> travel) {
-  std::vector<OrientedBox> parts(shapes.of.size());
-  for (size_t i = 0; i < parts.size(); ++i) {
-    const ContactBlock& b = blocks[at(shapes.block[i])];
-    const ContactShape& shape = shapes.part(i);
-    // relative to block 0 at rest, so that a scene 1e4 m from the origin loses no digits
-    const Vec3 centre = (b.rest - blocks[0].rest) + b.u + b.rotation * shape.centre;
-    std::copy_n(centre.data(), 3, parts[i].centre);
-    std::copy_n(b.rotation.data(), 9, parts[i].rotation);
-    const double way = travel[at(shapes.block[i])];
-    for (int k = 0; k < 3; ++k) parts[i].half[k] = shape.half[k] + way;
-    parts[i].radius = shape.radius + std::sqrt(3.0) * way;
-  }
-  return parts;
+// Box around part `i`, and around where it is after a `travel` (m) of its block.
+OrientedBox oriented_box(const ContactShapes& shapes, std::span<const ContactBlock> blocks, size_t i, double travel) {
+  const ContactBlock& b = blocks[at(shapes.block[i])];
+  const ContactShape& shape = shapes.part(i);
+  OrientedBox box;
+  // relative to block 0 at rest, so that a scene 1e4 m from the origin loses no digits
+  const Vec3 centre = (b.rest - blocks[0].rest) + b.u + b.rotation * shape.centre;
+  std::copy_n(centre.data(), 3, box.centre);
+  std::copy_n(b.rotation.data(), 9, box.rotation);
+  for (int k = 0; k < 3; ++k) box.half[k] = shape.half[k] + travel;
+  box.radius = shape.radius + std::sqrt(3.0) * travel;
+  return box;
 }
 
 // Finds the pairs of parts that are close.
 class Finder {
  public:
-  Finder(const PairList& list, const ContactShapes& shapes, std::span<const ContactBlock> blocks, std::span<const std::uint8_t> loose,
-         std::span<const std::uint64_t> excluded)
-      : margin_(list.margin),
-        shapes_(shapes),
-        blocks_(blocks),
-        loose_(loose),
-        excluded_(excluded),
-        parts_(oriented_boxes(shapes, blocks, list.travel)) {}
+  Finder(double margin, std::span<const double> travel, const ContactShapes& shapes, std::span<const ContactBlock> blocks,
+         std::span<const std::uint8_t> loose, std::span<const std::uint64_t> excluded)
+      : margin_(margin), shapes_(shapes), blocks_(blocks), loose_(loose), excluded_(excluded), parts_(shapes.of.size()) {
+    for (size_t i = 0; i < parts_.size(); ++i)
+      parts_[i] = oriented_box(shapes, blocks, i, travel.empty() ? 0 : travel[at(shapes.block[i])]);
+  }
 
-  std::vector<Found> find() {
+  std::vector<PartPair> find() {
     const Grid grid = make_grid(parts_, margin_);
     for (size_t first = 0; first < grid.sorted.size();) {
       size_t last = first + 1;
@@ -120,7 +111,7 @@ class Finder {
       for (size_t j = 0; j < parts_.size(); ++j) visit_if_near(i, static_cast<int>(j));
       judge(i);
     }
-    std::sort(found_.begin(), found_.end(), [](const Found& x, const Found& y) { return x.key() < y.key(); });
+    std::sort(found_.begin(), found_.end(), [](const PartPair& x, const PartPair& y) { return key_of(x) < key_of(y); });
     return std::move(found_);
   }
 
@@ -184,7 +175,7 @@ class Finder {
       if ((close >> l & 1u) == 0) continue;
       const int j = candidates_[l], bi = shapes_.block[at(i)], bj = shapes_.block[at(j)];
       const int pi = i - shapes_.first[at(bi)], pj = j - shapes_.first[at(bj)];
-      const Found f = bi < bj ? Found{bi, bj, pi, pj} : Found{bj, bi, pj, pi};
+      const PartPair f = bi < bj ? PartPair{bi, bj, pi, pj} : PartPair{bj, bi, pj, pi};
       if (!std::binary_search(excluded_.begin(), excluded_.end(), pair_key(f.a, f.b))) found_.push_back(f);
     }
     waiting_ = 0;
@@ -196,20 +187,9 @@ class Finder {
   std::span<const std::uint8_t> loose_;
   std::span<const std::uint64_t> excluded_;
   std::vector<OrientedBox> parts_;
-  std::vector<Found> found_;
+  std::vector<PartPair> found_;
   std::vector<int> close_;
   int candidates_[8], waiting_ = 0;
-};
-
-// The two greatest of many numbers.
-struct Farthest {
-  double greatest = 0, second = 0;
-
-  void take(double x) {
-    if (!(x <= greatest)) second = std::exchange(greatest, x);
-    else second = std::max(second, x);
-  }
-  double two() const { return greatest + second; }
 };
 
 // Times the least time ahead: that of blocks that travel by no more than two margins in it. More would list too many pairs.
@@ -226,24 +206,29 @@ double suggested_margin(std::vector<double> t) {
 bool needs_search(const PairList& list, const ContactShapes& shapes, std::span<const ContactBlock> blocks,
                   std::span<const std::uint8_t> still) {
   if (!list.valid || list.u.size() != blocks.size() || list.travel.size() != blocks.size()) return true;
-  // The motion of two bodies towards each other does not contain the common motion of all bodies.
-  Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity()), high = -low;
   const auto is_still = [&](size_t b) { return !still.empty() && still[b] != 0; };
-  const auto come = [&](size_t b) -> Vec3 { return is_still(b) ? Vec3(Vec3::Zero()) : Vec3(blocks[b].u - list.u[b]); };
-  for (size_t b = 0; b < blocks.size(); ++b) low = low.cwiseMin(come(b)), high = high.cwiseMax(come(b));
-  const Vec3 together = (low + high) / 2;
-  Farthest all, apart;
-  for (size_t b = 0; b < blocks.size(); ++b) {
-    const Vec3 moved = come(b);
-    double rotated = 0;
-    // |R - R0| (Frobenius) is 2 sqrt 2 sin(angle / 2); the chord of the farthest point is reach times that / sqrt 2.
-    if (!is_still(b)) rotated = reach_of(shapes, b) * std::sqrt(0.5) * (blocks[b].rotation - list.rotation[b]).norm();
-    const double foreseen = 0.5 * list.travel[b];
-    all.take(std::max(0.0, moved.norm() + rotated - foreseen));
-    apart.take(std::max(0.0, (moved - together).norm() + rotated - foreseen));
-  }
+  const auto moved = [&](size_t b) -> Vec3 { return is_still(b) ? Vec3(Vec3::Zero()) : Vec3(blocks[b].u - list.u[b]); };
+  const auto turned = [&](size_t b) {
+    const double rotated = is_still(b) ? 0 : turning_path(list.rotation[b], blocks[b].rotation, reach_of(shapes, b));
+    return rotated - 0.5 * list.travel[b];  // half of what was foreseen
+  };
   // half the margin: this test runs every few steps only, and a pair listed late would begin inside the other block
-  return !(std::min(all.two(), apart.two()) <= 0.5 * list.margin);
+  return !(greatest_approach(blocks.size(), moved, turned) <= 0.5 * list.margin);
+}
+
+std::vector<PartPair> close_parts(double margin, std::span<const double> travel, const ContactShapes& shapes,
+                                  std::span<const ContactBlock> blocks, std::span<const std::uint8_t> looking,
+                                  std::span<const std::uint64_t> excluded) {
+  if (shapes.shape.empty()) return {};
+  return Finder(margin, travel, shapes, blocks, looking, excluded).find();
+}
+
+bool boxes_within(double margin, const ContactShapes& shapes, std::span<const ContactBlock> blocks, const PartPair& pair) {
+  const OrientedBox one = oriented_box(shapes, blocks, at(shapes.first[at(pair.a)] + pair.part_a), 0),
+                    two = oriented_box(shapes, blocks, at(shapes.first[at(pair.b)] + pair.part_b), 0);
+  const OrientedBox* other[8];
+  std::ranges::fill(other, &two);
+  return (pair_kernels().close_boxes(one, other, margin) & 1u) != 0;
 }
 
 double search(PairList& list, const ContactShapes& shapes, std::span<const ContactBlock> blocks, std::span<const std::uint8_t> loose,
@@ -262,7 +247,7 @@ double search(PairList& list, const ContactShapes& shapes, std::span<const Conta
   }
   std::vector<std::uint8_t> looking(loose.begin(), loose.end());
   for (size_t b = 0; b < still.size(); ++b) looking[b] = looking[b] && !still[b];
-  const std::vector<Found> found = shapes.shape.empty() ? std::vector<Found>{} : Finder(list, shapes, blocks, looking, excluded).find();
+  const std::vector<PartPair> found = close_parts(list.margin, list.travel, shapes, blocks, looking, excluded);
   std::vector<ContactPair>& now = list.spare;
   now.clear();
   double dropped = 0;
@@ -273,9 +258,9 @@ double search(PairList& list, const ContactShapes& shapes, std::span<const Conta
     if (stays) now.push_back(p);
     else dropped += p.tangential;
   };
-  for (const Found& f : found) {
-    for (; old != list.pair.end() && key_of(*old) < f.key(); ++old) leave(*old);
-    if (old != list.pair.end() && key_of(*old) == f.key()) {
+  for (const PartPair& f : found) {
+    for (; old != list.pair.end() && key_of(*old) < key_of(f); ++old) leave(*old);
+    if (old != list.pair.end() && key_of(*old) == key_of(f)) {
       now.push_back(*old++);
       continue;
     }
@@ -304,10 +289,10 @@ PairLaw pair_law(const Material& a, const Material& b) {
 }
 
 int find_pair(const PairList& list, int a, int part_a, int b, int part_b) {
-  const Found wanted{a, b, part_a, part_b};
+  const PartPair wanted{a, b, part_a, part_b};
   auto place = std::lower_bound(list.pair.begin(), list.pair.end(), wanted,
-                                [](const ContactPair& p, const Found& f) { return key_of(p) < f.key(); });
-  return place != list.pair.end() && key_of(*place) == wanted.key() ? static_cast<int>(place - list.pair.begin()) : -1;
+                                [](const ContactPair& p, const PartPair& f) { return key_of(p) < key_of(f); });
+  return place != list.pair.end() && key_of(*place) == key_of(wanted) ? static_cast<int>(place - list.pair.begin()) : -1;
 }
 
 }  // namespace erbs

@@ -12,6 +12,11 @@ namespace erbs {
 
 inline std::uint64_t pair_key(int a, int b) { return static_cast<std::uint64_t>(a) << 32 | static_cast<std::uint64_t>(b); }
 
+// Two parts of two blocks, a < b.
+struct PartPair {
+  int a, b, part_a, part_b;
+};
+
 // A tenth of the median thickness of the parts (m).
 double suggested_margin(std::vector<double> thickness);
 
@@ -19,6 +24,15 @@ double suggested_margin(std::vector<double> thickness);
 // (`PairList::travel`). `still`: 1 for each block with the pose of the last search; empty: unknown.
 bool needs_search(const PairList& list, const ContactShapes& shapes, std::span<const ContactBlock> blocks,
                   std::span<const std::uint8_t> still = {});
+
+// All pairs of parts whose boxes are closer than `margin` (m), or that come so close on the `travel` (m) of each block, of which at least
+// one block is `looking`; sorted. Empty `travel`: none. Pairs of blocks with a `pair_key()` in `excluded` (sorted) and pairs that cannot
+// move are left out.
+std::vector<PartPair> close_parts(double margin, std::span<const double> travel, const ContactShapes& shapes,
+                                  std::span<const ContactBlock> blocks, std::span<const std::uint8_t> looking,
+                                  std::span<const std::uint64_t> excluded);
+// Whether the boxes of one pair are.
+bool boxes_within(double margin, const ContactShapes& shapes, std::span<const ContactBlock> blocks, const PartPair& pair);
 
 // Lists every pair of parts closer than the margin, or that may be so within the time `ahead` (s) at their speed, of which at least one
 // block is loose. Blocks that travel two margins at most count six times as long, so that a few that fall fast do not make each search

@@ -16,18 +16,19 @@ struct PairFrame {
   PairPose pose;
 };
 
-inline PairFrame pair_frame(const ContactPair& pair, const ContactShapes& shapes, const ContactBlock& a, const ContactBlock& b) {
-  PairFrame s;
-  const ContactShape &shape_a = shape_of(shapes, pair.a, pair.part_a), &shape_b = shape_of(shapes, pair.b, pair.part_b);
-  s.reference = pair.b_is_reference ? &shape_b : &shape_a;
-  s.other = pair.b_is_reference ? &shape_a : &shape_b;
-  s.reference_block = pair.b_is_reference ? &b : &a;
-  s.other_block = pair.b_is_reference ? &a : &b;
+inline PairFrame part_frame(const ContactShape& reference, const ContactShape& other, const ContactBlock& reference_block,
+                            const ContactBlock& other_block) {
+  PairFrame s{&reference, &other, &reference_block, &other_block, {}};
   // Relative positions first: a scene 1e4 m from the origin must not lose digits.
-  const Vec3 apart = (s.other_block->rest - s.reference_block->rest) + (s.other_block->u - s.reference_block->u);
-  s.pose.shift = s.reference_block->rotation.transpose() * apart;
-  s.pose.rotation = s.reference_block->rotation.transpose() * s.other_block->rotation;
+  const Vec3 apart = (other_block.rest - reference_block.rest) + (other_block.u - reference_block.u);
+  s.pose.shift = reference_block.rotation.transpose() * apart;
+  s.pose.rotation = reference_block.rotation.transpose() * other_block.rotation;
   return s;
+}
+
+inline PairFrame pair_frame(const ContactPair& pair, const ContactShapes& shapes, const ContactBlock& a, const ContactBlock& b) {
+  const ContactShape &shape_a = shape_of(shapes, pair.a, pair.part_a), &shape_b = shape_of(shapes, pair.b, pair.part_b);
+  return pair.b_is_reference ? part_frame(shape_b, shape_a, b, a) : part_frame(shape_a, shape_b, a, b);
 }
 
 // Makes a pair lane `l` of a pack.

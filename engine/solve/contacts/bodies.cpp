@@ -18,7 +18,15 @@ double largest_inverse_inertia(const Mat3& inverse) {
 
 }  // namespace
 
+std::vector<std::uint64_t> jointed_pairs(const Model& model, const State& state) {
+  std::vector<std::uint64_t> out;
+  for (int j = 0; j < model.njoint; ++j)
+    if (state.joints.stage[z(j)] != JointStage::contact) out.push_back(pair_key(model.joint[z(j)].a, model.joint[z(j)].b));
+  return out;
+}
+
 void ContactBodies::initialise() {
+  if (!block.empty()) return;
   std::vector<std::vector<Polyhedron>> parts(z(model.nblock));
   each_contact_part(model, [&](int b, const Polyhedron& part) { parts[z(b)].push_back(part); });
   block.resize(z(model.nblock));

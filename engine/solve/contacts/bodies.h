@@ -1,5 +1,4 @@
-// Bodies of contact: shapes at rest and present poses of all blocks, and which of them were joined at rest. Empty until the first block is
-// loose.
+// Bodies of contact: shapes at rest and present poses of all blocks, and which of them were joined at rest.
 #pragma once
 #include <cstdint>
 #include <vector>
@@ -7,6 +6,7 @@
 #include "engine/contact/broad/edge_neighbours.h"
 #include "engine/contact/law/pair.h"
 #include "engine/model/model.h"
+#include "engine/model/state.h"
 
 namespace erbs {
 
@@ -25,7 +25,7 @@ struct ContactBodies {
   std::vector<std::vector<int>> neighbours;  // blocks joined to each block at rest [nblock]
 
   explicit ContactBodies(const Model& all) : model(all) {}
-  void initialise();
+  void initialise();  // once, before the first use
 
   Mat3 axes_of(int b) const;
   Mat3 rotation_of(int b) const;  // from rest to the last update of its pose
@@ -41,5 +41,8 @@ struct ContactBodies {
  private:
   void set_axes(int b, const Mat3& to);
 };
+
+// Pairs of blocks (`pair_key()`) that still have a joint, sorted.
+std::vector<std::uint64_t> jointed_pairs(const Model& model, const State& state);
 
 }  // namespace erbs

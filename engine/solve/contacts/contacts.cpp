@@ -17,6 +17,14 @@ namespace {
 
 std::size_t z(int i) { return std::size_t(i); }
 
+// m, of the list, which gets it first.
+double margin_of(PairList& list, const Model& model) {
+  if (!list.u.empty()) return list.margin;
+  std::vector<double> thickness;
+  each_contact_part(model, [&](int, const Polyhedron& part) { thickness.push_back(contact_shape(part).thickness); });
+  return list.margin = suggested_margin(std::move(thickness));
+}
+
 }  // namespace
 
 Contacts::Contacts(const Model& model, State& state, const StepRange& range, int threads)
@@ -30,22 +38,14 @@ Contacts::Contacts(const Model& model, State& state, const StepRange& range, int
       bound_(model, state, range, bodies_, sleep_),
       sums_({model, state, bodies_, motion_, former_, forces_, sleep_, bound_}, threads),
       block_levels_(model, state),
+      watch_(model, state, bodies_, margin_of(state.contacts.list, model)),
       may_have_levels_(may_have_levels(model)) {
-  PairList& list = state.contacts.list;
-  if (list.start.empty()) {
-    list.start.reserve(state.pose.u.size());
-    for (std::size_t b = 0; b < state.pose.u.size(); ++b) list.start.push_back(state.pose.u[b]);
-  }
-  if (list.u.empty()) {
-    std::vector<double> thickness;
-    each_contact_part(model, [&](int, const Polyhedron& part) { thickness.push_back(contact_shape(part).thickness); });
-    list.margin = suggested_margin(std::move(thickness));
-  }
   list_involved();
 }
 
 void Contacts::initialise() {
-  if (!bodies_.block.empty()) return;
+  if (initialised_) return;
+  initialised_ = true;
   bodies_.initialise();
   motion_.initialise();
   bound_.initialise();
@@ -70,25 +70,23 @@ void Contacts::list_involved() {
   jointed_.clear();
   if (!active()) return;
   initialise();
-  for (int j = 0; j < model_.njoint; ++j)
-    if (state_.joints.stage[z(j)] != JointStage::contact) jointed_.push_back(pair_key(model_.joint[z(j)].a, model_.joint[z(j)].b));
+  jointed_ = jointed_pairs(model_, state_);
   former_.list_pairs();
   motion_.list_pairs();
   forces_.list_pairs();
 }
 
-void Contacts::activate_loose_blocks() {
+void Contacts::activate_loose_blocks(double time) {
+  std::vector<std::uint8_t>& loose = state_.topology.loose;
   bool changed = false;
-  const PairList& list = state_.contacts.list;
-  const Topology& topology = state_.topology;
-  const double far = 0.5 * list.margin;
   for (int b = 0; b < model_.nblock; ++b) {
-    if (model_.kind[z(b)] == Kind::fixed || topology.loose[z(b)]) continue;
-    const Vec3 u = state_.pose.u[z(b)];
-    if (topology.grounded[z(b)] && (u - list.start[z(b)]).squaredNorm() < far * far) continue;
-    if (model_.kind[z(b)] == Kind::driven && topology.grounded[z(b)] && u.norm() < far) continue;
-    state_.topology.loose[z(b)] = 1;
+    if (model_.kind[z(b)] == Kind::fixed || loose[z(b)] || state_.topology.grounded[z(b)]) continue;
+    loose[z(b)] = 1;
     changed = true;
+  }
+  if (time > 0) {
+    bodies_.initialise();
+    changed = watch_.mark(time, loose) || changed;
   }
   if (!changed) return;
   state_.contacts.list.valid = false;

@@ -1,5 +1,5 @@
 // Contacts between blocks, phase by phase: release of joints to contact, search for new neighbours of loose blocks, contact forces, and
-// their bound on the time step. An intact structure needs nothing of this: storage is allocated when the first block is loose.
+// their bound on the time step. An intact structure needs nothing of this but the watch over its neighbours.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -17,6 +17,7 @@
 #include "engine/solve/contacts/contact_sums.h"
 #include "engine/solve/contacts/former_joints.h"
 #include "engine/solve/contacts/motion_bounds.h"
+#include "engine/solve/contacts/neighbour_watch.h"
 #include "engine/solve/contacts/sleep.h"
 
 namespace erbs {
@@ -26,8 +27,9 @@ class Contacts {
   Contacts(const Model& model, State& state, const StepRange& range, int threads);
 
   bool active() const { return !involved_.empty() || !state_.contacts.list.pair.empty(); }
-  // Marks blocks as loose, so that they may find new neighbours: blocks without a path of joints to a support, or far from their start.
-  void activate_loose_blocks();
+  // Marks blocks as loose, so that they may find new neighbours: blocks without a path of joints to a support, and those that may touch
+  // another within `time` (s; 0: not looked for).
+  void activate_loose_blocks(double time = 0);
   // Before the forces of a step: the remaining poses, and every few steps the check whether a new search is necessary. `budget`: J, of
   // events (`event_bound.h`).
   void prepare(double budget);
@@ -84,12 +86,13 @@ class Contacts {
   ContactBound bound_;
   ContactSums sums_;
   BlockLevels block_levels_;
+  NeighbourWatch watch_;
   std::vector<int> fast_, fast_blocks_;  // live pairs that act in every step, within a macro step, and their blocks
   std::vector<int> involved_;            // blocks that are loose or listed in a pair
   std::vector<std::uint64_t> jointed_;   // pairs of blocks that still have a joint, sorted
   std::vector<std::uint8_t> still_;      // sleepers with the pose of the last search [nblock]; empty without sleepers
   const bool may_have_levels_;
-  bool unsorted_ = true;
+  bool unsorted_ = true, initialised_ = false;
   double searched_ = 0;
 };
 

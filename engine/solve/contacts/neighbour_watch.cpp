@@ -1,0 +1,162 @@
+#include "engine/solve/contacts/neighbour_watch.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "engine/contact/broad/approach.h"
+
+namespace erbs {
+namespace {
+
+constexpr double list_margins = 3;   // margins of the list of contacts: blocks of a structure that sways are seldom listed anew
+constexpr double least_sine = 0.1;   // of the angle between two planes that separate blocks along an edge
+constexpr double greatest_in_g = 4;  // acceleration towards each other that is looked for
+std::size_t z(int i) { return std::size_t(i); }
+
+PairFrame frame(const PartPair& of, const ContactShapes& shapes, const ContactBlock& a, const ContactBlock& b) {
+  return part_frame(shape_of(shapes, of.a, of.part_a), shape_of(shapes, of.b, of.part_b), a, b);
+}
+
+// Greatest length of the vectors or quaternions of all blocks; of their change if `from` is given.
+template <class Array>
+double greatest(const Array& all, const Array* from = nullptr) {
+  constexpr int n = sizeof(typename Array::Row) / sizeof(double) / pack_size;
+  double most[pack_size] = {};
+  for (std::size_t g = 0; g < (all.size() + pack_size - 1) / pack_size; ++g) {
+    double square[pack_size] = {};
+    for (int i = 0; i < n; ++i)
+      for (int l = 0; l < pack_size; ++l) {
+        const double x = all.data()[g].x[i][l] - (from ? from->data()[g].x[i][l] : 0);
+        square[l] += x * x;
+      }
+    for (int l = 0; l < pack_size; ++l) most[l] = std::max(most[l], square[l]);
+  }
+  return std::sqrt(*std::ranges::max_element(most));
+}
+
+// Gaps along the normals of the faces (m, negative where they overlap): the greatest, and the greatest at an angle to it.
+std::array<double, 2> gaps(const PairFrame& s) {
+  const int own = int(s.reference->normal.size()), all = own + int(s.other->normal.size());
+  const auto normal = [&](int f) -> Vec3 {
+    return f < own ? s.reference->normal[z(f)] : Vec3(s.pose.rotation * s.other->normal[z(f - own)]);
+  };
+  std::vector<double> gap;
+  for (int f = 0; f < all; ++f) gap.push_back(distance(*s.reference, *s.other, s.pose, f));
+  const auto widest = std::ranges::max_element(gap);
+  const Vec3 n = normal(int(widest - gap.begin()));
+  double second = -std::numeric_limits<double>::infinity();
+  for (int f = 0; f < all; ++f)
+    if (n.cross(normal(f)).norm() > least_sine) second = std::max(second, gap[z(f)]);
+  return {*widest, second};
+}
+
+}  // namespace
+
+NeighbourWatch::NeighbourWatch(const Model& model, const State& state, const ContactBodies& bodies, double margin)
+    : model_(model), state_(state), bodies_(bodies), least_margin_(list_margins * margin), narrow_(margin / 2) {}
+
+bool NeighbourWatch::mark(double time, std::vector<std::uint8_t>& loose) {
+  if (!u_.empty() && quiet(time)) return false;
+  place();
+  if (u_.empty() || !(closes(time) <= margin_)) list(time, loose);
+  bool any = false;
+  for (const Pair& pair : pairs_) {
+    const std::size_t a = z(pair.parts.a), b = z(pair.parts.b);
+    if (loose[a] || loose[b] || !may_touch(pair, time)) continue;
+    for (const std::size_t one : {a, b}) loose[one] = model_.kind[one] != Kind::fixed;
+    any = true;
+  }
+  return any;
+}
+
+// True if no pair can count, by the greatest motion of any block since the pairs were listed and the greatest speed.
+bool NeighbourWatch::quiet(double time) const {
+  // Of a change dq of a quaternion, a point at the distance `reach` moves by at most 4 reach |dq|.
+  const double moved = greatest(state_.pose.u, &listed_u_) + 4 * reach_ * greatest(state_.pose.q, &listed_q_);
+  const double speed = greatest(state_.motion.v) + reach_ * greatest(state_.motion.w);
+  return 2 * moved + 2 * time * speed + falls(time) < slack_;
+}
+
+void NeighbourWatch::place() {
+  if (block_.empty()) block_ = bodies_.block;
+  turned_.assign(block_.size(), 0.0);
+  for (std::size_t b = 0; b < block_.size(); ++b) {
+    ContactBlock& one = block_[b];
+    one.u = state_.pose.u[b], one.v = state_.motion.v[b], one.w = state_.motion.w[b];
+    one.rotation = Quat(state_.pose.q[b]).toRotationMatrix();
+    if (bodies_.axes_of_group(b / pack_size)) one.rotation *= bodies_.axes_of(int(b));
+    if (!u_.empty()) turned_[b] = turning_path(rotation_[b], one.rotation, bodies_.reach[b]);
+  }
+}
+
+// m, by which accelerated blocks come closer than their speeds say.
+double NeighbourWatch::falls(double time) const { return 0.5 * greatest_in_g * model_.gravity.norm() * time * time; }
+
+// m, by which any two blocks may have come closer since the pairs were listed, `time` (s) from now.
+double NeighbourWatch::closes(double time) const {
+  const auto moved = [&](std::size_t b) -> Vec3 { return block_[b].u - u_[b]; };
+  const auto speed = [&](std::size_t b) -> Vec3 { return block_[b].v; };
+  const auto spin = [&](std::size_t b) { return bodies_.reach[b] * block_[b].w.norm(); };
+  return greatest_approach(block_.size(), moved, [&](std::size_t b) { return turned_[b]; }) +
+         time * greatest_approach(block_.size(), speed, spin) + falls(time);
+}
+
+void NeighbourWatch::list(double time, const std::vector<std::uint8_t>& loose) {
+  u_.resize(block_.size());
+  rotation_.resize(block_.size());
+  for (std::size_t b = 0; b < block_.size(); ++b) u_[b] = block_[b].u, rotation_[b] = block_[b].rotation;
+  turned_.assign(block_.size(), 0.0);
+  margin_ = std::max(least_margin_, 2 * closes(time));
+  std::vector<std::uint8_t> looking(loose.size());
+  for (std::size_t b = 0; b < looking.size(); ++b) looking[b] = !loose[b] && model_.kind[b] != Kind::fixed;
+  pairs_.clear();
+  listed_u_ = state_.pose.u, listed_q_ = state_.pose.q;
+  reach_ = *std::ranges::max_element(bodies_.reach);
+  slack_ = margin_;
+  for (const PartPair& parts : close_parts(margin_, {}, bodies_.shapes, block_, looking, jointed_pairs(model_, state_)))
+    if (!loose[z(parts.a)] && !loose[z(parts.b)]) pairs_.push_back(listed(parts));
+  for (const Pair& pair : pairs_) slack_ = std::min(slack_, pair.narrow ? narrow_ - shift_bound(pair) : pair.gap);
+}
+
+NeighbourWatch::Pair NeighbourWatch::listed(const PartPair& parts) const {
+  Pair out{parts, gaps(frame(parts, bodies_.shapes, block_[z(parts.a)], block_[z(parts.b)]))[0], false, {}};
+  const auto joined_to_b = [&](int c) { return bodies_.were_joined(c, parts.b); };
+  if (std::ranges::none_of(bodies_.neighbours[z(parts.a)], joined_to_b)) return out;
+  ContactBlock a = block_[z(parts.a)], b = block_[z(parts.b)];
+  a.u = b.u = Vec3::Zero();
+  a.rotation = bodies_.axes_of(parts.a), b.rotation = bodies_.axes_of(parts.b);
+  const PairFrame rest = frame(parts, bodies_.shapes, a, b);
+  out.narrow = gaps(rest)[1] >= -narrow_;
+  out.rest = rest.pose;
+  return out;
+}
+
+bool NeighbourWatch::may_touch(const Pair& pair, double time) const {
+  const PartPair& of = pair.parts;
+  if (pair.narrow) return shifted(pair);
+  const ContactBlock &a = block_[z(of.a)], &b = block_[z(of.b)];
+  const double moved = ((b.u - u_[z(of.b)]) - (a.u - u_[z(of.a)])).norm() + turned_[z(of.a)] + turned_[z(of.b)];
+  const double speed = (b.v - a.v).norm() + bodies_.reach[z(of.a)] * a.w.norm() + bodies_.reach[z(of.b)] * b.w.norm();
+  const double ahead = time * speed + falls(time);
+  if (pair.gap - moved > ahead || !boxes_within(ahead, bodies_.shapes, block_, of)) return false;
+  return gaps(frame(of, bodies_.shapes, a, b))[0] <= ahead;
+}
+
+// True if the relative motion since rest exceeds what a narrow strip bears.
+bool NeighbourWatch::shifted(const Pair& pair) const {
+  if (shift_bound(pair) <= narrow_) return false;
+  const PairPose now = frame(pair.parts, bodies_.shapes, block_[z(pair.parts.a)], block_[z(pair.parts.b)]).pose;
+  const double turned = turning_path(pair.rest.rotation, now.rotation, bodies_.reach[z(pair.parts.b)]);
+  return (now.shift - pair.rest.shift).norm() + turned > narrow_;
+}
+
+// m, upper bound of this motion, quickly.
+double NeighbourWatch::shift_bound(const Pair& pair) const {
+  const std::size_t a = z(pair.parts.a), b = z(pair.parts.b);
+  const double turned = 2 * (Quat(state_.pose.q[a]).vec().norm() + Quat(state_.pose.q[b]).vec().norm());
+  return (block_[b].u - block_[a].u).norm() + (bodies_.reach[a] + bodies_.reach[b]) * turned;
+}
+
+}  // namespace erbs
