@@ -310,6 +310,16 @@ function pulse(keys) end
 ---@return erbs.wave # for a load; wave(t) is its value at time t
 function table_wave(keys) end
 
+---@class erbs.curve_wave_keys
+---@field times number[] increasing, at least two [s; -1e+09 to 1e+09]
+---@field values number[] one for each time, in the unit of the load
+---@field hold? boolean outside the curve the nearest value holds (default: zero)
+
+---A smooth curve through given values at given times.
+---@param keys erbs.curve_wave_keys
+---@return erbs.wave # for a load; wave(t) is its value at time t
+function curve_wave(keys) end
+
 ---@class erbs.record_keys
 ---@field file string PEER AT2, ESM, COSMOS or CSMIP V2, CSV or text of columns
 ---@field peak? number largest absolute acceleration after scaling (default: as recorded) [m/s2; 0 to 10000]
@@ -450,7 +460,7 @@ function tilt(keys) end
 ---@field sample? number sampling step of a Lua function [s; 1e-06 to 10; default 0.001]
 ---@field name? string name, for reports
 
----Prescribes the displacement of a block along a direction; its other degrees of freedom are fixed.
+---Prescribes the displacement of a block along a direction; its other degrees of freedom are fixed. A function is followed smoothly; the corners of a table_wave are jolts, a curve_wave has none.
 ---@param keys erbs.motion_keys
 function motion(keys) end
 

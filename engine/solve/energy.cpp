@@ -5,6 +5,7 @@
 
 #include "engine/joints/event_bound.h"
 #include "engine/model/levels.h"
+#include "engine/solve/blocks/prescribed.h"
 
 namespace erbs {
 namespace {
@@ -12,6 +13,20 @@ namespace {
 constexpr int ledger_every = 32;     // steps between two closings of the ledger, ...
 constexpr int ledger_slowly = 128;   // ... with contacts, ...
 constexpr int ledger_seldom = 4096;  // ... in a scene without a ledger
+
+// J, of all moving blocks at the greatest speed of a driven one: the measure of a structure without weight, which driven blocks set in
+// motion.
+double driven_energy(const Model& model, double mass) {
+  constexpr int samples = 1000;
+  const double h = model.analysis.duration / samples;
+  double fastest = 0;
+  for (const Model::PrescribedMotion& motion : model.prescribed_motions)
+    for (int i = 0; i < samples; ++i) {
+      const auto at = [&](double t) { return prescribed_pose(model, motion.block, t, Quat::Identity()).u; };
+      fastest = std::max(fastest, (at((i + 1) * h) - at(i * h)).norm() / h);
+    }
+  return 0.5 * mass * fastest * fastest;
+}
 
 }  // namespace
 
@@ -59,7 +74,7 @@ Ledger::Ledger(const Model& model, State& state) : model_(model), state_(state) 
   const double weight = mass_ * model.gravity.norm();
   high = std::max(high, low);
   floor_ = std::max(1e-300, 1e-12 * weight * (high - low));
-  lift_ = 1e-3 * weight * (high - low);
+  lift_ = weight > 0 ? 1e-3 * weight * (high - low) : driven_energy(model, mass_);
   state.energy.reference = std::max({state.energy.reference, lift_, state.time.step == 0 ? kinetic : 0});
 }
 
@@ -125,25 +140,14 @@ void Ledger::close(std::span<JointSums> joints, std::span<JointSums> cracked, st
   if (e.started) e.height_flux += std::fabs(e.gravity - gravity_before);
   // The structure's own measure counts once something may open or close, or has changed the step: until then all is exact.
   const double residual_before = e.residual;
-  const double measure = lift_ > 0 ? lift_ : e.reference;
-  settle(e, events || state_.time.start_step > 0 ? std::max(floor_, measure) : floor_, state_.time.t, worst);
+  settle(e, events || state_.time.start_step > 0 ? std::max(floor_, lift_) : floor_, state_.time.t, worst);
   // Closings at the rows of a run add up to the same.
   const bool many = has_many_events(model_, state_);
   if (many) e.event_residual = (due_ ? recent_share : 1) * (e.event_residual + (e.residual - residual_before));
   if (!due_) return;
-  if (!(lift_ > 0)) e.reference = std::max(e.reference, driven_energy());
   const double loss = e.friction + e.fracture + e.crushing + e.damping + e.contact_damping;
   e.reference = std::max(e.reference, std::fabs(e.kinetic) + std::fabs(e.elastic - e.elastic_at_start) + std::max(0.0, loss));
   if (!many) e.event_residual = e.residual;
-}
-
-// J, of all moving blocks at the speed of the fastest driven one: the measure of a structure without weight, which nothing but driven
-// blocks sets in motion.
-double Ledger::driven_energy() const {
-  double square = 0;
-  for (std::size_t b = 0; b < model_.kind.size(); ++b)
-    if (model_.kind[b] == Kind::driven) square = std::max(square, Vec3(state_.motion.v[b]).squaredNorm());
-  return 0.5 * mass_ * square;
 }
 
 }  // namespace erbs

@@ -34,12 +34,11 @@ class Ledger {
 
  private:
   void add(const BlockSums& sums);
-  double driven_energy() const;
 
   const Model& model_;
   State& state_;
   double floor_ = 0;  // J, least scale of the ledger
-  double lift_ = 0;   // J, work that lifts all blocks by a thousandth of the structure's height
+  double lift_ = 0;   // J, work that lifts all blocks by a thousandth of the structure's height, or their energy as a driven block moves
   double mass_ = 0;
   bool due_ = false;  // the ledger closes at this step without being asked to
 };

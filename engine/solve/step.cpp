@@ -20,8 +20,8 @@ constexpr int fade_every = 8;        // steps between two reductions of the stif
 constexpr int balance_every = 32;    // steps between two changes of the shares of threads, ...
 constexpr int timed_every = 5;       // ... and between two whose time is taken for them: no multiple of the steps in a macro step
 constexpr int regroup_every = 256;   // steps between two orderings of cracked joints in their packs
-constexpr int watch_every = 256;     // steps between two searches for blocks that may meet, ...
-constexpr int watch_few_every = 32;  // ... of few blocks: they take longer steps
+constexpr int watch_every = 64;     // steps between two looks for blocks that may meet, ...
+constexpr int watch_few_every = 4;  // ... of few blocks: they take longer steps
 constexpr int few_blocks = 100;
 constexpr int columns_every = 64;  // steps between two searches for the columns of blocks in contact
 std::size_t z(int i) { return std::size_t(i); }

@@ -93,8 +93,11 @@ void sample_waves(lua_State* lua, Context& context) {
     Load& load = context.scene.loads[one.load];
     Samples s = sampled(lua, context, one.function, context.scene.analysis.duration, one.sample, one.place);
     const bool path = load.kind == Load::Kind::motion || load.kind == Load::Kind::turning;
-    if (path) load.wave = make_curve(std::move(s.times), std::move(s.values), true);
-    else load.wave = make_table(std::move(s.times), std::move(s.values), true);
+    if (path) {
+      Curve curve = make_curve(std::move(s.times), std::move(s.values), false);
+      curve.hold = true;
+      load.wave = std::move(curve);
+    } else load.wave = make_table(std::move(s.times), std::move(s.values), true);
   }
 }
 

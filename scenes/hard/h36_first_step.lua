@@ -8,7 +8,7 @@
 label("quick")
 local kn, contact = param("kn", 1e9, "[Pa/m] of the beds"), param("contact", 2e10, "[Pa/m]")
 local gap, size, tilt = param("gap", 0, "[m] below the brick"), param("size", 1, "times .3 x .2 x .1 m"), param("tilt", 0, "[rad] of the brick")
-family({ kn = { 1e7, 1e8, 1e12 }, contact = { 1e9, 1e12 }, gap = { 1e-7, 1e-6, 1e-5, 1e-4 }, size = { 0.2, 3 }, tilt = { 1e-3, 0.05 } },
+family({ kn = { 1e7, 1e8, 1e12 }, contact = { 1e9, 1e12 }, gap = { 1e-7, 1e-6, 1e-5 }, size = { 0.2, 3 }, tilt = { 1e-3, 0.05 } },
   { combinations = 16 })
 gravity(g)
 local length, width, height, density = 0.3 * size, 0.2 * size, 0.1 * size, 1800

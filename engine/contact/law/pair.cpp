@@ -204,6 +204,7 @@ bool pair_force(ContactPair& pair, const ContactShapes& shapes, const ContactBlo
   Patch patch = find_overlap(*s.reference, *s.other, lifted(pair, s.pose), pair.separating_axis, room);
   if (patch.total > 0) {
     press(pair, s, patch, pair_settings(settings, interval), contact_count, room, result);
+    if (settings.first_fall > 0) impact_bound(pair, s, settings, 0, interval.horizon, result);  // it may only just touch
     if (want_energy) result.elastic = pair.law.kn * overlap_energy(*s.reference, *s.other, lifted(pair, s.pose), room);
     return true;
   }

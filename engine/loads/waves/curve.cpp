@@ -31,18 +31,29 @@ double inside(const Curve& p, double t) { return std::clamp(t, p.times.front(), 
 double before(const Curve& p, double t) { return std::min(0.0, t - p.times.front()); }
 double after(const Curve& p, double t) { return std::max(0.0, t - p.times.back()); }
 
-// Second derivatives at the points: those of neighbours balance so that the slope has no jump (Thomas's algorithm).
-std::vector<double> natural_bend(const Polyline& line) {
+// Slope at the first of three points of the parabola through them.
+double slope_at_first(double x0, double y0, double x1, double y1, double x2, double y2) {
+  const double first = (y1 - y0) / (x1 - x0), second = (y2 - y1) / (x2 - x1);
+  return first - (second - first) * (x1 - x0) / (x2 - x0);
+}
+
+// Second derivatives at the points: those of neighbours balance so that the slope has no jump (Thomas's algorithm). A curve that is held
+// has the slope zero at its ends, else that of the parabola through three points.
+std::vector<double> bend_of(const Polyline& line, bool hold) {
   const std::vector<double>&x = line.times, &y = line.values;
-  const size_t n = x.size();
+  const size_t n = x.size(), e = n - 1;
   std::vector<double> bend(n, 0.0), upper(n, 0.0);
-  const auto slope = [&](size_t i) { return (y[i + 1] - y[i]) / (x[i + 1] - x[i]); };
-  for (size_t i = 1; i + 1 < n; ++i) {
-    const double low = x[i] - x[i - 1], high = x[i + 1] - x[i], pivot = 2 * (low + high) - low * upper[i - 1];
+  if (n < 3 && !hold) return bend;
+  const double first = hold ? 0 : slope_at_first(x[0], y[0], x[1], y[1], x[2], y[2]),
+               last = hold ? 0 : slope_at_first(x[e], y[e], x[e - 1], y[e - 1], x[e - 2], y[e - 2]);
+  for (size_t i = 0; i < n; ++i) {
+    const double low = i > 0 ? x[i] - x[i - 1] : 0, high = i < e ? x[i + 1] - x[i] : 0;
+    const double from = i > 0 ? (y[i] - y[i - 1]) / low : first, to = i < e ? (y[i + 1] - y[i]) / high : last;
+    const double pivot = 2 * (low + high) - (i > 0 ? low * upper[i - 1] : 0);
     upper[i] = high / pivot;
-    bend[i] = (6 * (slope(i) - slope(i - 1)) - low * bend[i - 1]) / pivot;
+    bend[i] = (6 * (to - from) - (i > 0 ? low * bend[i - 1] : 0)) / pivot;
   }
-  for (size_t i = n - 1; i-- > 1;) bend[i] -= upper[i] * bend[i + 1];
+  for (size_t i = e; i-- > 0;) bend[i] -= upper[i] * bend[i + 1];
   return bend;
 }
 
@@ -50,7 +61,7 @@ std::vector<double> natural_bend(const Polyline& line) {
 
 Curve make_curve(std::vector<double> times, std::vector<double> values, bool hold) {
   Polyline line = make_polyline(std::move(times), std::move(values));  // checks the points
-  Curve p{{}, {}, natural_bend(line), {}, {}, hold};
+  Curve p{{}, {}, bend_of(line, hold), {}, {}, hold};
   p.times = std::move(line.times), p.values = std::move(line.values);
   p.area.assign(p.times.size(), 0.0);
   p.double_area = p.area;

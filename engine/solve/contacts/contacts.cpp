@@ -135,11 +135,23 @@ void Contacts::update() {
   former_.forget_displaced();
   if (unsorted_) find_still();
   if (list.valid && !needs_search(list, bodies_.shapes, bodies_.block, still_)) return;
-  const bool came_loose = !list.valid && state_.time.step > 0;  // overlaps at the start of a run are meant to press
-  const std::vector<int> fresh = search_pairs(state_.energy.reset, still_);
+  const bool came_loose = !list.valid && state_.time.step > 0;
+  std::vector<int> fresh = search_pairs(state_.energy.reset, still_);
   if (came_loose) state_.energy.reset -= former_.start_fresh(fresh);
+  if (state_.time.step == 0) {  // overlaps at rest are free of force; those of blocks that the scene moves there are meant to press
+    std::erase_if(fresh, [this](int i) { return !overlap_at_rest(state_.contacts.list.pair[z(i)]); });
+    former_.start_fresh(fresh);
+  }
   rebuild_lists();
   find_still();
+}
+
+bool Contacts::overlap_at_rest(const ContactPair& pair) const {
+  constexpr double round_off = 1e-9;  // of the reach
+  const auto moved = [this](int b) { return !state_.pose.u[z(b)].isZero(0) || state_.pose.q[z(b)].vec() != Vec3::Zero(); };
+  if (moved(pair.a) || moved(pair.b)) return false;
+  const PairFrame s = pair_frame(pair, bodies_.shapes, bodies_.block[z(pair.a)], bodies_.block[z(pair.b)]);
+  return greatest_gap(s) < -round_off * (s.reference->reach + s.other->reach);
 }
 
 // Returns the new pairs. `reset`: J, receives the energy of pairs that are dropped.

@@ -69,6 +69,7 @@ class Contacts {
   void rebuild_lists();
   void update();
   std::vector<int> search_pairs(double& reset, std::span<const std::uint8_t> still);
+  bool overlap_at_rest(const ContactPair& pair) const;
   void sort();
   void find_still();
   void start_macro_step();

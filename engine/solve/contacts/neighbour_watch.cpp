@@ -4,15 +4,19 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <tuple>
 
+#include "engine/base/rotation.h"
+#include "engine/base/units.h"
 #include "engine/contact/broad/approach.h"
+#include "engine/solve/blocks/prescribed.h"
 
 namespace erbs {
 namespace {
 
-constexpr double list_margins = 3;   // margins of the list of contacts: blocks of a structure that sways are seldom listed anew
-constexpr double least_sine = 0.1;   // of the angle between two planes that separate blocks along an edge
-constexpr double greatest_in_g = 4;  // acceleration towards each other that is looked for
+constexpr double list_margins = 3;  // margins of the list of contacts: blocks of a structure that sways are seldom listed anew
+constexpr double least_sine = 0.1;  // of the angle between two planes that separate blocks along an edge
+constexpr double greatest_acceleration = 4 * standard_g;  // towards each other, that is looked for
 std::size_t z(int i) { return std::size_t(i); }
 
 PairFrame frame(const PartPair& of, const ContactShapes& shapes, const ContactBlock& a, const ContactBlock& b) {
@@ -54,12 +58,23 @@ std::array<double, 2> gaps(const PairFrame& s) {
 
 }  // namespace
 
+double greatest_gap(const PairFrame& s) { return gaps(s)[0]; }
+
 NeighbourWatch::NeighbourWatch(const Model& model, const State& state, const ContactBodies& bodies, double margin)
-    : model_(model), state_(state), bodies_(bodies), least_margin_(list_margins * margin), narrow_(margin / 2) {}
+    : model_(model),
+      state_(state),
+      bodies_(bodies),
+      least_margin_(list_margins * margin),
+      narrow_(margin / 2),
+      least_distance_(margin / 4) {}
 
 bool NeighbourWatch::mark(double time, std::vector<std::uint8_t>& loose) {
+  acceleration_ = greatest_acceleration;
+  for (const Model::ForceLoad& load : model_.force_loads)
+    if (!load.moment)
+      acceleration_ = std::max(acceleration_, std::fabs(value(load.wave, state_.time.t + time)) * model_.inverse_mass[z(load.block)]);
   if (!u_.empty() && quiet(time)) return false;
-  place();
+  place(time);
   if (u_.empty() || !(closes(time) <= margin_)) list(time, loose);
   bool any = false;
   for (const Pair& pair : pairs_) {
@@ -75,24 +90,39 @@ bool NeighbourWatch::mark(double time, std::vector<std::uint8_t>& loose) {
 bool NeighbourWatch::quiet(double time) const {
   // Of a change dq of a quaternion, a point at the distance `reach` moves by at most 4 reach |dq|.
   const double moved = greatest(state_.pose.u, &listed_u_) + 4 * reach_ * greatest(state_.pose.q, &listed_q_);
-  const double speed = greatest(state_.motion.v) + reach_ * greatest(state_.motion.w);
-  return 2 * moved + 2 * time * speed + falls(time) < slack_;
+  double speed = greatest(state_.motion.v) + reach_ * greatest(state_.motion.w);
+  for (const Model::PrescribedMotion& driven : model_.prescribed_motions) {
+    const auto [v, w] = driven_motion(driven.block, time);
+    speed = std::max(speed, v.norm() + reach_ * w.norm());
+  }
+  return 2 * moved + ahead(2 * speed, time) < slack_;
 }
 
-void NeighbourWatch::place() {
+// Speed and spin of a driven block, at rest though it may be: now or, if faster, on average from now on.
+NeighbourWatch::Motion NeighbourWatch::driven_motion(int b, double time) const {
+  const Vec3 v = state_.motion.v[z(b)], w = state_.motion.w[z(b)];
+  const auto [u, q] = prescribed_pose(model_, b, state_.time.t + time, state_.pose.q[z(b)]);
+  const Vec3 v_ahead = (u - Vec3(state_.pose.u[z(b)])) / time, w_ahead = rotation_vector(q * state_.pose.q[z(b)].conjugate()) / time;
+  return {v_ahead.norm() > v.norm() ? v_ahead : v, w_ahead.norm() > w.norm() ? w_ahead : w};
+}
+
+void NeighbourWatch::place(double time) {
   if (block_.empty()) block_ = bodies_.block;
   turned_.assign(block_.size(), 0.0);
   for (std::size_t b = 0; b < block_.size(); ++b) {
     ContactBlock& one = block_[b];
     one.u = state_.pose.u[b], one.v = state_.motion.v[b], one.w = state_.motion.w[b];
+    if (model_.kind[b] == Kind::driven) std::tie(one.v, one.w) = driven_motion(int(b), time);
     one.rotation = Quat(state_.pose.q[b]).toRotationMatrix();
     if (bodies_.axes_of_group(b / pack_size)) one.rotation *= bodies_.axes_of(int(b));
     if (!u_.empty()) turned_[b] = turning_path(rotation_[b], one.rotation, bodies_.reach[b]);
   }
 }
 
-// m, by which accelerated blocks come closer than their speeds say.
-double NeighbourWatch::falls(double time) const { return 0.5 * greatest_in_g * model_.gravity.norm() * time * time; }
+// m, distance that two blocks may close within `time` (s) at the `speed` (m/s) towards each other, and accelerated.
+double NeighbourWatch::ahead(double speed, double time) const {
+  return std::max(least_distance_, time * speed + 0.5 * acceleration_ * time * time);
+}
 
 // m, by which any two blocks may have come closer since the pairs were listed, `time` (s) from now.
 double NeighbourWatch::closes(double time) const {
@@ -100,7 +130,7 @@ double NeighbourWatch::closes(double time) const {
   const auto speed = [&](std::size_t b) -> Vec3 { return block_[b].v; };
   const auto spin = [&](std::size_t b) { return bodies_.reach[b] * block_[b].w.norm(); };
   return greatest_approach(block_.size(), moved, [&](std::size_t b) { return turned_[b]; }) +
-         time * greatest_approach(block_.size(), speed, spin) + falls(time);
+         ahead(greatest_approach(block_.size(), speed, spin), time);
 }
 
 void NeighbourWatch::list(double time, const std::vector<std::uint8_t>& loose) {
@@ -139,9 +169,9 @@ bool NeighbourWatch::may_touch(const Pair& pair, double time) const {
   const ContactBlock &a = block_[z(of.a)], &b = block_[z(of.b)];
   const double moved = ((b.u - u_[z(of.b)]) - (a.u - u_[z(of.a)])).norm() + turned_[z(of.a)] + turned_[z(of.b)];
   const double speed = (b.v - a.v).norm() + bodies_.reach[z(of.a)] * a.w.norm() + bodies_.reach[z(of.b)] * b.w.norm();
-  const double ahead = time * speed + falls(time);
-  if (pair.gap - moved > ahead || !boxes_within(ahead, bodies_.shapes, block_, of)) return false;
-  return gaps(frame(of, bodies_.shapes, a, b))[0] <= ahead;
+  const double near = ahead(speed, time);
+  if (pair.gap - moved > near || !boxes_within(near, bodies_.shapes, block_, of)) return false;
+  return gaps(frame(of, bodies_.shapes, a, b))[0] <= near;
 }
 
 // True if the relative motion since rest exceeds what a narrow strip bears.

@@ -2,6 +2,7 @@
 // between them. Contact costs a standing structure nothing until two such blocks may meet.
 #pragma once
 #include <cstdint>
+#include <tuple>
 #include <vector>
 
 #include "engine/contact/broad/search.h"
@@ -10,6 +11,9 @@
 #include "engine/solve/contacts/bodies.h"
 
 namespace erbs {
+
+// m, greatest distance along the normal of a face of either body; negative where they overlap.
+double greatest_gap(const PairFrame& bodies);
 
 class NeighbourWatch {
  public:
@@ -27,24 +31,29 @@ class NeighbourWatch {
     PairPose rest;
   };
   bool quiet(double time) const;
-  void place();
+  using Motion = std::tuple<Vec3, Vec3>;  // m/s, rad/s
+  Motion driven_motion(int b, double time) const;
+  void place(double time);
   double closes(double time) const;
   void list(double time, const std::vector<std::uint8_t>& loose);
   Pair listed(const PartPair& parts) const;
   bool may_touch(const Pair& pair, double time) const;
   bool shifted(const Pair& pair) const;
   double shift_bound(const Pair& pair) const;
-  double falls(double time) const;
+  double ahead(double speed, double time) const;
 
   const Model& model_;
   const State& state_;
   const ContactBodies& bodies_;
-  const double least_margin_, narrow_;  // m; width of a narrow strip, and the relative motion that it bears
-  double margin_ = 0;                   // m, within which pairs are listed
-  std::vector<ContactBlock> block_;     // present poses; empty until the first call
-  std::vector<Vec3> u_;                 // m, displacements when the pairs were listed, ...
-  std::vector<Mat3> rotation_;          // ... rotations, ...
-  std::vector<double> turned_;          // ... and the path of each block's farthest point by rotation since then, m
+  const double least_margin_;        // m, within which pairs are listed
+  const double narrow_;              // m, width of a narrow strip, and the relative motion that it bears
+  const double least_distance_;      // m, at which faces count at any speed: a violent force may set a block in motion between two looks
+  double margin_ = 0;                // m, of the present list
+  double acceleration_ = 0;          // m/s2, of two blocks towards each other, that this look reckons with
+  std::vector<ContactBlock> block_;  // present poses; empty until the first call
+  std::vector<Vec3> u_;              // m, displacements when the pairs were listed, ...
+  std::vector<Mat3> rotation_;       // ... rotations, ...
+  std::vector<double> turned_;       // ... and the path of each block's farthest point by rotation since then, m
   std::vector<Pair> pairs_;
   // For a first look at all blocks that needs no pose (`quiet()`).
   BlockVec3 listed_u_;
