@@ -166,7 +166,7 @@ std::vector<Function> load_functions() {
        load_keys("rad", "axis", "\"x\", \"y\", \"z\" or a vector", false)},
       {"motion", motion, "{ ... }", "",
        "Prescribes the displacement of a block along a direction; its other degrees of freedom are fixed. A function is followed smoothly; "
-       "the corners of a table_wave are jolts, a curve_wave has none.",
+       "the corners of a table_wave are jolts; a curve_wave has none, and starts and ends at rest if it is held.",
        load_keys("m", "direction", "\"x\", \"y\", \"z\" or a vector", true)},
       {"turning", turning, "{ ... }", "",
        "Prescribes the rotation of a block about an axis. Its position is fixed, unless motion{} prescribes it.", turning_keys},

@@ -1,7 +1,7 @@
 // Smooth curve through given values: its slope and its curvature have no jump. Displacements that a block is made to follow need it, since
 // every corner of a line is a jolt.
 //
-// Source: natural cubic spline (de Boor 1978, A practical guide to splines, chapter IV).
+// Source: cubic spline (de Boor 1978, A practical guide to splines, chapter IV); its ends: `bend_of()`.
 #pragma once
 #include "engine/base/field.h"
 #include "engine/loads/waves/polyline.h"
