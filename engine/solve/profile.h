@@ -29,7 +29,7 @@ class Profile {
 
   // At the start of a step; true if this one is measured.
   bool begin(const TimeStep& time) {
-    measured_ = time.macro % measured_every == 0;
+    measured_ = time.macro % measured_every == 1;  // not the first step, which prepares
     if (measured_) last_ = Clock::now();
     return measured_;
   }
