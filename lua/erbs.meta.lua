@@ -460,7 +460,7 @@ function tilt(keys) end
 ---@field sample? number sampling step of a Lua function [s; 1e-06 to 10; default 0.001]
 ---@field name? string name, for reports
 
----Prescribes the displacement of a block along a direction; its other degrees of freedom are fixed. A function is followed smoothly; the corners of a table_wave are jolts, a curve_wave has none.
+---Prescribes the displacement of a block along a direction; its other degrees of freedom are fixed. A function is followed smoothly; the corners of a table_wave are jolts; a curve_wave has none, and starts and ends at rest if it is held.
 ---@param keys erbs.motion_keys
 function motion(keys) end
 

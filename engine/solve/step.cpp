@@ -20,8 +20,8 @@ constexpr int fade_every = 8;        // steps between two reductions of the stif
 constexpr int balance_every = 32;    // steps between two changes of the shares of threads, ...
 constexpr int timed_every = 5;       // ... and between two whose time is taken for them: no multiple of the steps in a macro step
 constexpr int regroup_every = 256;   // steps between two orderings of cracked joints in their packs
-constexpr int watch_every = 64;     // steps between two looks for blocks that may meet, ...
-constexpr int watch_few_every = 4;  // ... of few blocks: they take longer steps
+constexpr int watch_every = 64;      // steps between two looks for blocks that may meet, ...
+constexpr int watch_few_every = 4;   // ... of few blocks: they take longer steps
 constexpr int few_blocks = 100;
 constexpr int columns_every = 64;  // steps between two searches for the columns of blocks in contact
 std::size_t z(int i) { return std::size_t(i); }
@@ -99,8 +99,8 @@ void Solver::prepare_step(const SamplePlan& plan) {
   const bool debris = model_.analysis.debris, cracked = joints_.any_cracked();
   if (cracked && !joints_.reference() && every(regroup_every, time)) joints_.regroup();
   if (cracked && !state_.joints.share.empty() && every(fade_every, time)) fading_.fade(joints_.cracked(), interval(fade_every, time));
-  const int watch = model_.nblock > few_blocks ? watch_every : watch_few_every;
-  if (debris && every(watch, time)) contacts_.activate_loose_blocks(2 * watch * time.dt);
+  const int look_every = model_.nblock > few_blocks ? watch_every : watch_few_every;
+  if (debris && every(look_every, time)) contacts_.activate_loose_blocks(2 * look_every * time.dt);
   has_contacts_ = contacts_.active();
   budget_ = together && has_levels(time) ? event_allowance(model_, state_) : event_budget(model_, state_);
   has_transitions_ = has_contacts_ || time.step == 0 || (debris && cracked && every(model_.release_every, time));

@@ -25,16 +25,16 @@ struct Farthest {
 inline double turning_path(const Mat3& from, const Mat3& to, double reach) { return reach * std::sqrt(0.5) * (to - from).norm(); }
 
 // Upper bound of how far any two of `count` bodies have come towards each other, which does not contain the common motion of all.
-// `moved(b)`: motion of body b, a vector; `turned(b)`: what its rotation adds.
+// `moved(b)`: motion of body b, a vector; `rotated(b)`: what its rotation adds.
 template <class Moved, class Turned>
-double greatest_approach(std::size_t count, Moved moved, Turned turned) {
+double greatest_approach(std::size_t count, Moved moved, Turned rotated) {
   Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity()), high = -low;
   for (std::size_t b = 0; b < count; ++b) low = low.cwiseMin(moved(b)), high = high.cwiseMax(moved(b));
   const Vec3 together = (low + high) / 2;
   Farthest all, apart;
   for (std::size_t b = 0; b < count; ++b) {
     const Vec3 by = moved(b);
-    const double more = turned(b);
+    const double more = rotated(b);
     all.take(std::max(0.0, by.norm() + more));
     apart.take(std::max(0.0, (by - together).norm() + more));
   }

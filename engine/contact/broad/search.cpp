@@ -208,12 +208,12 @@ bool needs_search(const PairList& list, const ContactShapes& shapes, std::span<c
   if (!list.valid || list.u.size() != blocks.size() || list.travel.size() != blocks.size()) return true;
   const auto is_still = [&](size_t b) { return !still.empty() && still[b] != 0; };
   const auto moved = [&](size_t b) -> Vec3 { return is_still(b) ? Vec3(Vec3::Zero()) : Vec3(blocks[b].u - list.u[b]); };
-  const auto turned = [&](size_t b) {
+  const auto path = [&](size_t b) {
     const double rotated = is_still(b) ? 0 : turning_path(list.rotation[b], blocks[b].rotation, reach_of(shapes, b));
     return rotated - 0.5 * list.travel[b];  // half of what was foreseen
   };
   // half the margin: this test runs every few steps only, and a pair listed late would begin inside the other block
-  return !(greatest_approach(blocks.size(), moved, turned) <= 0.5 * list.margin);
+  return !(greatest_approach(blocks.size(), moved, path) <= 0.5 * list.margin);
 }
 
 std::vector<PartPair> close_parts(double margin, std::span<const double> travel, const ContactShapes& shapes,

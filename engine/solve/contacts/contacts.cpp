@@ -86,7 +86,7 @@ void Contacts::activate_loose_blocks(double time) {
   }
   if (time > 0) {
     bodies_.initialise();
-    changed = watch_.mark(time, loose) || changed;
+    changed = watch_.find(time, loose) || changed;
   }
   if (!changed) return;
   state_.contacts.list.valid = false;

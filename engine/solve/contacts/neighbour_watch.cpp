@@ -68,7 +68,7 @@ NeighbourWatch::NeighbourWatch(const Model& model, const State& state, const Con
       narrow_(margin / 2),
       least_distance_(margin / 4) {}
 
-bool NeighbourWatch::mark(double time, std::vector<std::uint8_t>& loose) {
+bool NeighbourWatch::find(double time, std::vector<std::uint8_t>& loose) {
   acceleration_ = greatest_acceleration;
   for (const Model::ForceLoad& load : model_.force_loads)
     if (!load.moment)
@@ -77,7 +77,7 @@ bool NeighbourWatch::mark(double time, std::vector<std::uint8_t>& loose) {
   place(time);
   if (u_.empty() || !(closes(time) <= margin_)) list(time, loose);
   bool any = false;
-  for (const Pair& pair : pairs_) {
+  for (const Neighbours& pair : pairs_) {
     const std::size_t a = z(pair.parts.a), b = z(pair.parts.b);
     if (loose[a] || loose[b] || !may_touch(pair, time)) continue;
     for (const std::size_t one : {a, b}) loose[one] = model_.kind[one] != Kind::fixed;
@@ -108,14 +108,14 @@ NeighbourWatch::Motion NeighbourWatch::driven_motion(int b, double time) const {
 
 void NeighbourWatch::place(double time) {
   if (block_.empty()) block_ = bodies_.block;
-  turned_.assign(block_.size(), 0.0);
+  rotated_.assign(block_.size(), 0.0);
   for (std::size_t b = 0; b < block_.size(); ++b) {
     ContactBlock& one = block_[b];
     one.u = state_.pose.u[b], one.v = state_.motion.v[b], one.w = state_.motion.w[b];
     if (model_.kind[b] == Kind::driven) std::tie(one.v, one.w) = driven_motion(int(b), time);
     one.rotation = Quat(state_.pose.q[b]).toRotationMatrix();
     if (bodies_.axes_of_group(b / pack_size)) one.rotation *= bodies_.axes_of(int(b));
-    if (!u_.empty()) turned_[b] = turning_path(rotation_[b], one.rotation, bodies_.reach[b]);
+    if (!u_.empty()) rotated_[b] = turning_path(rotation_[b], one.rotation, bodies_.reach[b]);
   }
 }
 
@@ -129,7 +129,7 @@ double NeighbourWatch::closes(double time) const {
   const auto moved = [&](std::size_t b) -> Vec3 { return block_[b].u - u_[b]; };
   const auto speed = [&](std::size_t b) -> Vec3 { return block_[b].v; };
   const auto spin = [&](std::size_t b) { return bodies_.reach[b] * block_[b].w.norm(); };
-  return greatest_approach(block_.size(), moved, [&](std::size_t b) { return turned_[b]; }) +
+  return greatest_approach(block_.size(), moved, [&](std::size_t b) { return rotated_[b]; }) +
          ahead(greatest_approach(block_.size(), speed, spin), time);
 }
 
@@ -137,7 +137,7 @@ void NeighbourWatch::list(double time, const std::vector<std::uint8_t>& loose) {
   u_.resize(block_.size());
   rotation_.resize(block_.size());
   for (std::size_t b = 0; b < block_.size(); ++b) u_[b] = block_[b].u, rotation_[b] = block_[b].rotation;
-  turned_.assign(block_.size(), 0.0);
+  rotated_.assign(block_.size(), 0.0);
   margin_ = std::max(least_margin_, 2 * closes(time));
   std::vector<std::uint8_t> looking(loose.size());
   for (std::size_t b = 0; b < looking.size(); ++b) looking[b] = !loose[b] && model_.kind[b] != Kind::fixed;
@@ -147,11 +147,11 @@ void NeighbourWatch::list(double time, const std::vector<std::uint8_t>& loose) {
   slack_ = margin_;
   for (const PartPair& parts : close_parts(margin_, {}, bodies_.shapes, block_, looking, jointed_pairs(model_, state_)))
     if (!loose[z(parts.a)] && !loose[z(parts.b)]) pairs_.push_back(listed(parts));
-  for (const Pair& pair : pairs_) slack_ = std::min(slack_, pair.narrow ? narrow_ - shift_bound(pair) : pair.gap);
+  for (const Neighbours& pair : pairs_) slack_ = std::min(slack_, pair.narrow ? narrow_ - shift_bound(pair) : pair.gap);
 }
 
-NeighbourWatch::Pair NeighbourWatch::listed(const PartPair& parts) const {
-  Pair out{parts, gaps(frame(parts, bodies_.shapes, block_[z(parts.a)], block_[z(parts.b)]))[0], false, {}};
+NeighbourWatch::Neighbours NeighbourWatch::listed(const PartPair& parts) const {
+  Neighbours out{parts, gaps(frame(parts, bodies_.shapes, block_[z(parts.a)], block_[z(parts.b)]))[0], false, {}};
   const auto joined_to_b = [&](int c) { return bodies_.were_joined(c, parts.b); };
   if (std::ranges::none_of(bodies_.neighbours[z(parts.a)], joined_to_b)) return out;
   ContactBlock a = block_[z(parts.a)], b = block_[z(parts.b)];
@@ -163,11 +163,11 @@ NeighbourWatch::Pair NeighbourWatch::listed(const PartPair& parts) const {
   return out;
 }
 
-bool NeighbourWatch::may_touch(const Pair& pair, double time) const {
+bool NeighbourWatch::may_touch(const Neighbours& pair, double time) const {
   const PartPair& of = pair.parts;
   if (pair.narrow) return shifted(pair);
   const ContactBlock &a = block_[z(of.a)], &b = block_[z(of.b)];
-  const double moved = ((b.u - u_[z(of.b)]) - (a.u - u_[z(of.a)])).norm() + turned_[z(of.a)] + turned_[z(of.b)];
+  const double moved = ((b.u - u_[z(of.b)]) - (a.u - u_[z(of.a)])).norm() + rotated_[z(of.a)] + rotated_[z(of.b)];
   const double speed = (b.v - a.v).norm() + bodies_.reach[z(of.a)] * a.w.norm() + bodies_.reach[z(of.b)] * b.w.norm();
   const double near = ahead(speed, time);
   if (pair.gap - moved > near || !boxes_within(near, bodies_.shapes, block_, of)) return false;
@@ -175,18 +175,18 @@ bool NeighbourWatch::may_touch(const Pair& pair, double time) const {
 }
 
 // True if the relative motion since rest exceeds what a narrow strip bears.
-bool NeighbourWatch::shifted(const Pair& pair) const {
+bool NeighbourWatch::shifted(const Neighbours& pair) const {
   if (shift_bound(pair) <= narrow_) return false;
   const PairPose now = frame(pair.parts, bodies_.shapes, block_[z(pair.parts.a)], block_[z(pair.parts.b)]).pose;
-  const double turned = turning_path(pair.rest.rotation, now.rotation, bodies_.reach[z(pair.parts.b)]);
-  return (now.shift - pair.rest.shift).norm() + turned > narrow_;
+  const double rotated = turning_path(pair.rest.rotation, now.rotation, bodies_.reach[z(pair.parts.b)]);
+  return (now.shift - pair.rest.shift).norm() + rotated > narrow_;
 }
 
 // m, upper bound of this motion, quickly.
-double NeighbourWatch::shift_bound(const Pair& pair) const {
+double NeighbourWatch::shift_bound(const Neighbours& pair) const {
   const std::size_t a = z(pair.parts.a), b = z(pair.parts.b);
-  const double turned = 2 * (Quat(state_.pose.q[a]).vec().norm() + Quat(state_.pose.q[b]).vec().norm());
-  return (block_[b].u - block_[a].u).norm() + (bodies_.reach[a] + bodies_.reach[b]) * turned;
+  const double rotated = 2 * (Quat(state_.pose.q[a]).vec().norm() + Quat(state_.pose.q[b]).vec().norm());
+  return (block_[b].u - block_[a].u).norm() + (bodies_.reach[a] + bodies_.reach[b]) * rotated;
 }
 
 }  // namespace erbs

@@ -21,10 +21,10 @@ class NeighbourWatch {
   NeighbourWatch(const Model& model, const State& state, const ContactBodies& bodies, double margin);
   // Marks the blocks in `loose` that may touch another within `time` (s) from now. If one of two blocks is loose already, the search for
   // contacts knows of both. True if any block was marked. Poses and speeds alone decide, so that a resumed run marks the same.
-  bool mark(double time, std::vector<std::uint8_t>& loose);
+  bool find(double time, std::vector<std::uint8_t>& loose);
 
  private:
-  struct Pair {
+  struct Neighbours {
     PartPair parts;
     double gap;   // m, lower bound of the distance when it was listed
     bool narrow;  // at rest they touch along an edge, at a corner or by a narrow strip, and both are joined to a third block
@@ -36,10 +36,10 @@ class NeighbourWatch {
   void place(double time);
   double closes(double time) const;
   void list(double time, const std::vector<std::uint8_t>& loose);
-  Pair listed(const PartPair& parts) const;
-  bool may_touch(const Pair& pair, double time) const;
-  bool shifted(const Pair& pair) const;
-  double shift_bound(const Pair& pair) const;
+  Neighbours listed(const PartPair& parts) const;
+  bool may_touch(const Neighbours& pair, double time) const;
+  bool shifted(const Neighbours& pair) const;
+  double shift_bound(const Neighbours& pair) const;
   double ahead(double speed, double time) const;
 
   const Model& model_;
@@ -53,8 +53,8 @@ class NeighbourWatch {
   std::vector<ContactBlock> block_;  // present poses; empty until the first call
   std::vector<Vec3> u_;              // m, displacements when the pairs were listed, ...
   std::vector<Mat3> rotation_;       // ... rotations, ...
-  std::vector<double> turned_;       // ... and the path of each block's farthest point by rotation since then, m
-  std::vector<Pair> pairs_;
+  std::vector<double> rotated_;      // ... and the path of each block's farthest point by rotation since then, m
+  std::vector<Neighbours> pairs_;
   // For a first look at all blocks that needs no pose (`quiet()`).
   BlockVec3 listed_u_;
   BlockQuat listed_q_;

@@ -27,7 +27,7 @@ struct Watched {
   // Names of nothing: the number of blocks marked.
   int marks(double time) {
     std::vector<std::uint8_t> loose(std::size_t(run.model.nblock), 0);
-    watch.mark(time, loose);
+    watch.find(time, loose);
     return std::accumulate(loose.begin(), loose.end(), 0);
   }
   State& state() { return run.state; }
