@@ -100,7 +100,9 @@ void Solver::prepare_step(const SamplePlan& plan) {
   if (cracked && !joints_.reference() && every(regroup_every, time)) joints_.regroup();
   if (cracked && !state_.joints.share.empty() && every(fade_every, time)) fading_.fade(joints_.cracked(), interval(fade_every, time));
   const int look_every = model_.nblock > few_blocks ? watch_every : watch_few_every;
-  if (debris && every(look_every, time)) contacts_.activate_loose_blocks(2 * look_every * time.dt);
+  // Past the limit of the step on purpose, joints alone fly apart: contact would shorten the step.
+  const double ahead = model_.analysis.unstable ? 0 : 2 * look_every * time.dt;
+  if (debris && every(look_every, time)) contacts_.activate_loose_blocks(ahead);
   has_contacts_ = contacts_.active();
   budget_ = together && has_levels(time) ? event_allowance(model_, state_) : event_budget(model_, state_);
   has_transitions_ = has_contacts_ || time.step == 0 || (debris && cracked && every(model_.release_every, time));
