@@ -43,6 +43,7 @@ const std::map<std::string, Words> sound_calls{
     {"mp_pulse", {{"amplitude", "1"}, {"frequency", "1"}, {"gamma", "2"}}},
     {"pulse", {{"amplitude", "1"}}},
     {"table_wave", {{"times", "{0, 1}"}, {"values", "{0, 1}"}}},
+    {"curve_wave", {{"times", "{0, 1}"}, {"values", "{0, 1}"}}},
     {"record", {{"file", "'wave.csv'"}}},
     {"spectral_acceleration", {{"wave", "half_sine{ amplitude = 1, frequency = 1 }"}, {"period", "1"}}},
     {"ground_records", {{"x", "'wave.csv'"}}},
