@@ -7,8 +7,6 @@ Wave earlier(const Wave& wave, double by) {
   std::visit(
       [&](auto& w) {
         if constexpr (requires { w.start; }) w.start -= by;
-        else if constexpr (requires { w.times; })
-          for (double& t : w.times) t -= by;
         else
           for (double& t : w.line.times) t -= by;
       },

@@ -12,20 +12,57 @@ namespace {
 
 void finish(Call&, Arguments&, auto&) {}
 
+void note_once(Context& context, const std::string& note) {
+  std::vector<std::string>& notes = context.scene.notes;
+  if (std::find(notes.begin(), notes.end(), note) == notes.end()) notes.push_back(note);
+}
+
+// A smooth curve through points that turn sharply swings beyond them.
+void note_swings(Call& call, const Curve& wave) {
+  constexpr int samples = 16;   // of a segment
+  constexpr double most = 0.1;  // of the range of the values
+  const std::vector<double>&times = wave.line.times, &values = wave.line.values;
+  const auto [low, high] = std::ranges::minmax(values);
+  double least = low, greatest = high;
+  for (size_t i = 0; i + 1 < times.size(); ++i)
+    for (int k = 1; k < samples; ++k) {
+      const double x = value(wave, times[i] + (times[i + 1] - times[i]) * k / samples);
+      least = std::min(least, x), greatest = std::max(greatest, x);
+    }
+  if (std::max(low - least, greatest - high) > most * (high - low))
+    note_once(
+        call.context,
+        fmt::format("{}: between its points this curve reaches from {:.4g} to {:.4g}, its values lie from {:g} to {:g}; give more points "
+                    "where it turns, or take table_wave",
+                    call.place.text(), least, greatest, low, high));
+}
+
 // Waves through given points.
 template <class W>
 constexpr bool has_points = std::is_same_v<W, Table> || std::is_same_v<W, Curve>;
 
 template <class W>
+W through(std::vector<double> times, std::vector<double> values, bool hold) {
+  if constexpr (std::is_same_v<W, Table>) return make_table(std::move(times), std::move(values), hold);
+  else return make_curve(std::move(times), std::move(values), hold);
+}
+
+template <class W>
 requires has_points<W>
-void finish(Call&, Arguments& arguments, W& wave) {
+void finish(Call& call, Arguments& arguments, W& wave) {
   std::vector<double> times, values;
+  const auto mistakes = [&] { return call.context.mistakes.size() + size_t(call.context.repeated); };
+  const size_t before = mistakes();
   arguments.read("times", times);
   arguments.read("values", values);
   try {
-    if constexpr (std::is_same_v<W, Table>) wave = make_table(std::move(times), std::move(values), wave.hold);
-    else wave = make_curve(std::move(times), std::move(values), wave.hold);
-  } catch (const Error& error) { arguments.mistake(error.what()); }
+    if (mistakes() > before) times = {0, 1}, values = {0, 0};  // what is left of the points would only make a second mistake
+    wave = through<W>(std::move(times), std::move(values), wave.hold);
+    if constexpr (std::is_same_v<W, Curve>) note_swings(call, wave);
+  } catch (const Error& error) {
+    arguments.mistake(error.what());
+    wave = through<W>({0, 1}, {0, 0}, wave.hold);  // the script goes on, and may ask it for values
+  }
 }
 
 void finish(Call& call, Arguments& arguments, Record& wave) {
@@ -42,8 +79,8 @@ void finish(Call& call, Arguments& arguments, Record& wave) {
 }
 
 size_t points_of(const Record& wave) { return wave.acceleration.times.size(); }
-size_t points_of(const Table& wave) { return wave.line.times.size(); }
-size_t points_of(const Curve& wave) { return wave.times.size(); }
+template <class W>
+requires has_points<W> size_t points_of(const W& wave) { return wave.line.times.size(); }
 
 template <class W>
 int make_wave(Call& call) {
@@ -123,8 +160,7 @@ void check_scale(Arguments& arguments, Record& wave) {
 void note_record(Context& context, const Record& record, const Place& place) {
   if (record.note.empty()) return;
   const std::string note = fmt::format("{}: {}: {}", place.text(), std::filesystem::path(record.file).filename().string(), record.note);
-  if (std::find(context.scene.notes.begin(), context.scene.notes.end(), note) == context.scene.notes.end())
-    context.scene.notes.push_back(note);
+  note_once(context, note);
 }
 
 std::vector<Function> wave_functions() {

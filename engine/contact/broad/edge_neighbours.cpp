@@ -12,20 +12,14 @@ namespace {
 constexpr double at_zero_gap = 1e-9;  // of the other body's bounding radius; smaller gaps and overlaps are round-off
 constexpr double least_sine = 0.1;    // of the angle between two planes that form an edge
 
-// Unit normals, from the reference to the other, of the faces of both bodies that separate the two; none if there is a gap.
+// Unit normals of the faces that separate the two; none if there is a gap.
 std::vector<Vec3> planes_between(const PairFrame& s) {
   const double round_off = at_zero_gap * s.other->reach;
   std::vector<Vec3> between;
-  double widest = 0;
-  const auto take = [&](const Vec3& n, double gap) {
-    widest = std::max(widest, gap);
-    if (gap >= -round_off) between.push_back(n);
-  };
-  const int own = int(s.reference->normal.size());
-  for (int f = 0; f < own; ++f) take(s.reference->normal[std::size_t(f)], distance(*s.reference, *s.other, s.pose, f));
-  for (int f = 0; f < int(s.other->normal.size()); ++f)
-    take(-(s.pose.rotation * s.other->normal[std::size_t(f)]), distance(*s.reference, *s.other, s.pose, own + f));
-  if (widest > round_off) between.clear();
+  for (const FaceGap& face : face_gaps(s)) {
+    if (face.gap > round_off) return {};
+    if (face.gap >= -round_off) between.push_back(face.n);
+  }
   return between;
 }
 
@@ -36,6 +30,18 @@ double extent(const ContactShape& body, const Vec3& n) {
 }
 
 }  // namespace
+
+std::vector<FaceGap> face_gaps(const PairFrame& s) {
+  const int own = int(s.reference->normal.size()), all = own + int(s.other->normal.size());
+  std::vector<FaceGap> out;
+  for (int f = 0; f < all; ++f) {
+    const Vec3 n = f < own ? s.reference->normal[std::size_t(f)] : Vec3(-(s.pose.rotation * s.other->normal[std::size_t(f - own)]));
+    out.push_back({n, distance(*s.reference, *s.other, s.pose, f)});
+  }
+  return out;
+}
+
+double greatest_gap(const PairFrame& s) { return std::ranges::max(face_gaps(s), {}, &FaceGap::gap).gap; }
 
 EdgeAtRest edge_at_rest(const ContactPair& pair, const PairFrame& s, double most) {
   EdgeAtRest edge;

@@ -14,6 +14,14 @@ struct EdgeAtRest {
   double slowest = 1;              // greatest ratio of this motion to the travel in `MotionBounds::surely_separated()`
 };
 
+// The gap along the normal of a face of either body.
+struct FaceGap {
+  Vec3 n;      // from the reference to the other, axes of the reference
+  double gap;  // m, negative where they overlap
+};
+std::vector<FaceGap> face_gaps(const PairFrame& bodies);
+double greatest_gap(const PairFrame& bodies);  // m
+
 // `rest`: the pair at rest. `most`: what counts as almost no force, of the weight of the lighter block.
 EdgeAtRest edge_at_rest(const ContactPair& pair, const PairFrame& rest, double most);
 // m, remaining travel of both blocks, as `surely_separated()` measures it; zero or less: the pair needs an evaluation.

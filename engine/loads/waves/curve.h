@@ -9,10 +9,9 @@
 namespace erbs {
 
 struct Curve {
-  std::vector<double> times, values;      // s, and the unit of its load            [points]
-  std::vector<double> bend;               // second derivative, zero at both ends   [points]
-  std::vector<double> area, double_area;  // as in `Polyline`                       [points]
-  bool hold = false;                      // outside the curve the nearest value holds; else zero
+  Polyline line;             // its points: s, and the unit of its load; the integrals are those of the curve
+  std::vector<double> bend;  // second derivative   [points]
+  bool hold = false;         // outside the curve the nearest value holds; else zero
 
   static constexpr std::string_view wave_name = "curve_wave";
   static constexpr std::string_view help = "A smooth curve through given values at given times.";
@@ -29,6 +28,6 @@ double area(const Curve& wave, double t);
 double double_area(const Curve& wave, double t);
 double mean(const Curve& wave, double t0, double t1);
 double end_time(const Curve& wave);
-double resolution(const Curve& wave);
+inline double resolution(const Curve& wave) { return shortest_interval(wave.line); }
 
 }  // namespace erbs

@@ -20,10 +20,9 @@ using Clock = std::chrono::steady_clock;
 std::size_t z(int i) { return std::size_t(i); }
 
 // m, that a body at rest falls in the first steps, or until it is fast enough for its blows to be foreseen.
-double first_fall(double gravity, double dt) {
-  const ContactSettings settings;
-  const double time = std::max(look_ahead * dt, gravity > 0 ? settings.reference_speed / gravity : 0);
-  return 0.5 * gravity * time * time;
+double first_fall(const ContactSettings& settings, double dt) {
+  const double time = std::max(look_ahead * dt, settings.gravity > 0 ? settings.reference_speed / settings.gravity : 0);
+  return 0.5 * settings.gravity * time * time;
 }
 
 PairFrame frame_of(const PairBodies& bodies, const ContactBlock& a, const ContactBlock& b) {
@@ -60,7 +59,7 @@ void ContactForces::prepare() {
 
 void ContactForces::set(double budget) {
   settings_.event_budget = budget;
-  settings_.first_fall = state_.time.step == 0 ? first_fall(settings_.gravity, state_.time.dt) : 0;
+  settings_.first_fall = state_.time.step == 0 ? first_fall(settings_, state_.time.dt) : 0;
   settings_.horizon = has_levels(state_.time) ? 3 * macro_dt(state_.time) : 0;  // this macro step and the next, twice as long at most
 }
 

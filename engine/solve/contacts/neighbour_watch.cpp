@@ -1,7 +1,6 @@
 #include "engine/solve/contacts/neighbour_watch.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <tuple>
@@ -9,6 +8,7 @@
 #include "engine/base/rotation.h"
 #include "engine/base/units.h"
 #include "engine/contact/broad/approach.h"
+#include "engine/contact/broad/edge_neighbours.h"
 #include "engine/solve/blocks/prescribed.h"
 
 namespace erbs {
@@ -16,6 +16,7 @@ namespace {
 
 constexpr double list_margins = 3;  // margins of the list of contacts: blocks of a structure that sways are seldom listed anew
 constexpr double least_sine = 0.1;  // of the angle between two planes that separate blocks along an edge
+constexpr double lever = 3;  // greatest change of a gap along the normal of a face that rotates, over the path of its body's farthest point
 constexpr double greatest_acceleration = 4 * standard_g;  // towards each other, that is looked for
 std::size_t z(int i) { return std::size_t(i); }
 
@@ -40,25 +41,17 @@ double greatest(const Array& all, const Array* from = nullptr) {
   return std::sqrt(*std::ranges::max_element(most));
 }
 
-// Gaps along the normals of the faces (m, negative where they overlap): the greatest, and the greatest at an angle to it.
-std::array<double, 2> gaps(const PairFrame& s) {
-  const int own = int(s.reference->normal.size()), all = own + int(s.other->normal.size());
-  const auto normal = [&](int f) -> Vec3 {
-    return f < own ? s.reference->normal[z(f)] : Vec3(s.pose.rotation * s.other->normal[z(f - own)]);
-  };
-  std::vector<double> gap;
-  for (int f = 0; f < all; ++f) gap.push_back(distance(*s.reference, *s.other, s.pose, f));
-  const auto widest = std::ranges::max_element(gap);
-  const Vec3 n = normal(int(widest - gap.begin()));
+// m, greatest gap along the normal of a face at an angle to the face of the greatest gap.
+double second_gap(const PairFrame& s) {
+  const std::vector<FaceGap> faces = face_gaps(s);
+  const Vec3 n = std::ranges::max(faces, {}, &FaceGap::gap).n;
   double second = -std::numeric_limits<double>::infinity();
-  for (int f = 0; f < all; ++f)
-    if (n.cross(normal(f)).norm() > least_sine) second = std::max(second, gap[z(f)]);
-  return {*widest, second};
+  for (const FaceGap& face : faces)
+    if (n.cross(face.n).norm() > least_sine) second = std::max(second, face.gap);
+  return second;
 }
 
 }  // namespace
-
-double greatest_gap(const PairFrame& s) { return gaps(s)[0]; }
 
 NeighbourWatch::NeighbourWatch(const Model& model, const State& state, const ContactBodies& bodies, double margin)
     : model_(model),
@@ -83,13 +76,14 @@ bool NeighbourWatch::find(double time, std::vector<std::uint8_t>& loose) {
     for (const std::size_t one : {a, b}) loose[one] = model_.kind[one] != Kind::fixed;
     any = true;
   }
+  if (any) u_.clear();  // the next look lists anew: pairs of these blocks no longer count
   return any;
 }
 
 // True if no pair can count, by the greatest motion of any block since the pairs were listed and the greatest speed.
 bool NeighbourWatch::quiet(double time) const {
   // Of a change dq of a quaternion, a point at the distance `reach` moves by at most 4 reach |dq|.
-  const double moved = greatest(state_.pose.u, &listed_u_) + 4 * reach_ * greatest(state_.pose.q, &listed_q_);
+  const double moved = greatest(state_.pose.u, &listed_u_) + 4 * lever * reach_ * greatest(state_.pose.q, &listed_q_);
   double speed = greatest(state_.motion.v) + reach_ * greatest(state_.motion.w);
   for (const Model::PrescribedMotion& driven : model_.prescribed_motions) {
     const auto [v, w] = driven_motion(driven.block, time);
@@ -115,7 +109,7 @@ void NeighbourWatch::place(double time) {
     if (model_.kind[b] == Kind::driven) std::tie(one.v, one.w) = driven_motion(int(b), time);
     one.rotation = Quat(state_.pose.q[b]).toRotationMatrix();
     if (bodies_.axes_of_group(b / pack_size)) one.rotation *= bodies_.axes_of(int(b));
-    if (!u_.empty()) rotated_[b] = turning_path(rotation_[b], one.rotation, bodies_.reach[b]);
+    if (!u_.empty()) rotated_[b] = turning_path(rotation_[b], one.rotation, lever * bodies_.reach[b]);
   }
 }
 
@@ -143,7 +137,9 @@ void NeighbourWatch::list(double time, const std::vector<std::uint8_t>& loose) {
   for (std::size_t b = 0; b < looking.size(); ++b) looking[b] = !loose[b] && model_.kind[b] != Kind::fixed;
   pairs_.clear();
   listed_u_ = state_.pose.u, listed_q_ = state_.pose.q;
-  reach_ = *std::ranges::max_element(bodies_.reach);
+  reach_ = 0;
+  for (std::size_t b = 0; b < block_.size(); ++b)
+    if (model_.kind[b] != Kind::fixed) reach_ = std::max(reach_, bodies_.reach[b]);
   slack_ = margin_;
   for (const PartPair& parts : close_parts(margin_, {}, bodies_.shapes, block_, looking, jointed_pairs(model_, state_)))
     if (!loose[z(parts.a)] && !loose[z(parts.b)]) pairs_.push_back(listed(parts));
@@ -151,14 +147,14 @@ void NeighbourWatch::list(double time, const std::vector<std::uint8_t>& loose) {
 }
 
 NeighbourWatch::Neighbours NeighbourWatch::listed(const PartPair& parts) const {
-  Neighbours out{parts, gaps(frame(parts, bodies_.shapes, block_[z(parts.a)], block_[z(parts.b)]))[0], false, {}};
+  Neighbours out{parts, greatest_gap(frame(parts, bodies_.shapes, block_[z(parts.a)], block_[z(parts.b)])), false, {}};
   const auto joined_to_b = [&](int c) { return bodies_.were_joined(c, parts.b); };
   if (std::ranges::none_of(bodies_.neighbours[z(parts.a)], joined_to_b)) return out;
   ContactBlock a = block_[z(parts.a)], b = block_[z(parts.b)];
   a.u = b.u = Vec3::Zero();
   a.rotation = bodies_.axes_of(parts.a), b.rotation = bodies_.axes_of(parts.b);
   const PairFrame rest = frame(parts, bodies_.shapes, a, b);
-  out.narrow = gaps(rest)[1] >= -narrow_;
+  out.narrow = second_gap(rest) >= -narrow_;
   out.rest = rest.pose;
   return out;
 }
@@ -171,7 +167,7 @@ bool NeighbourWatch::may_touch(const Neighbours& pair, double time) const {
   const double speed = (b.v - a.v).norm() + bodies_.reach[z(of.a)] * a.w.norm() + bodies_.reach[z(of.b)] * b.w.norm();
   const double near = ahead(speed, time);
   if (pair.gap - moved > near || !boxes_within(near, bodies_.shapes, block_, of)) return false;
-  return gaps(frame(of, bodies_.shapes, a, b))[0] <= near;
+  return greatest_gap(frame(of, bodies_.shapes, a, b)) <= near;
 }
 
 // True if the relative motion since rest exceeds what a narrow strip bears.

@@ -12,9 +12,6 @@
 
 namespace erbs {
 
-// m, greatest distance along the normal of a face of either body; negative where they overlap.
-double greatest_gap(const PairFrame& bodies);
-
 class NeighbourWatch {
  public:
   // `margin`: m, of the list of contact pairs.
@@ -58,7 +55,7 @@ class NeighbourWatch {
   // For a first look at all blocks that needs no pose (`quiet()`).
   BlockVec3 listed_u_;
   BlockQuat listed_q_;
-  double reach_ = 0, slack_ = 0;  // m, greatest reach; least way of all pairs, listed or not, before they count
+  double reach_ = 0, slack_ = 0;  // m, greatest reach of blocks that move; least way of all pairs, listed or not, before they count
 };
 
 }  // namespace erbs

@@ -162,6 +162,23 @@ TEST_CASE("waves are values, can be called, and drive loads", "[lua]") {
   CHECK(value(sampled, 0.25) == Approx(4 * std::cos(pi / 2) + 0.25).margin(1e-9));
 }
 
+TEST_CASE("a wrong number among the points of a wave is one mistake, not two", "[lua][bad_input]") {
+  for (const char* wave : {"table_wave", "curve_wave"})
+    for (const char* points : {"times = {0, 0/0, 2}, values = {0, 1, 2}", "times = {0, 1, 2}, values = {0, {}, 2}"}) {
+      INFO(wave << ": " << points);
+      CHECK(mistakes_in(std::string("tilt{ axis = 'y', wave = ") + wave + "{ " + points + " } }").size() == 1);
+    }
+  CHECK(mentions(mistakes_in("tilt{ axis = 'y', wave = curve_wave{ times = {0, 1, 2}, values = {0, 1} } }"), "3 times but 2 values"));
+}
+
+TEST_CASE("a smooth curve that swings beyond its values is told", "[lua]") {
+  const auto notes = [](const char* points) {
+    return scene_of(std::string("tilt{ axis = 'y', wave = curve_wave{ ") + points + " } }").notes;
+  };
+  CHECK(mentions(notes("times = {0, 1, 2, 2.2}, values = {0, .1, .1, 0}"), "this curve reaches from 0 to 0.21"));
+  CHECK(notes("times = {0, .5, 1, 1.5, 2}, values = {0, .1, .2, .1, 0}, hold = true").empty());
+}
+
 TEST_CASE("analysis, damping, recorder and camera", "[lua]") {
   const Scene scene = scene_of(
       "analysis{ duration = 3, dt = { 1e-3, unstable = true }, kernel = 'reference', start = 'rest', gyroscopic = false }\n"
