@@ -7,19 +7,19 @@
 namespace erbs {
 namespace {
 
-struct Plane {
+struct GapPlane {
   double c = 0, s = 0, t = 0;
   double at(const Vec2& x) const { return c + s * x.x() + t * x.y(); }
 };
-Plane operator-(const Plane& a, const Plane& b) { return {a.c - b.c, a.s - b.s, a.t - b.t}; }
-bool same(const Plane& a, const Plane& b) { return a.c == b.c && a.s == b.s && a.t == b.t; }
-Plane plane(const double p[3]) { return {p[0], p[1], p[2]}; }
+GapPlane operator-(const GapPlane& a, const GapPlane& b) { return {a.c - b.c, a.s - b.s, a.t - b.t}; }
+bool same(const GapPlane& a, const GapPlane& b) { return a.c == b.c && a.s == b.s && a.t == b.t; }
+GapPlane plane(const double p[3]) { return {p[0], p[1], p[2]}; }
 
-// z = min(0, planes). Plane 0 is zero; there is room for one plane more than a face stores.
+// z = min(0, planes). GapPlane 0 is zero; there is room for one plane more than a face stores.
 struct Envelope {
   int count = 1;
-  Plane plane[CrushedFace::most + 2];
-  void add(const Plane& p) { plane[count++] = p; }
+  GapPlane plane[CrushedFace::most + 2];
+  void add(const GapPlane& p) { plane[count++] = p; }
   void remove(int k) {
     std::copy(plane + k + 1, plane + count, plane + k);
     --count;
@@ -47,7 +47,7 @@ struct Loop {
 };
 
 // Cuts a convex loop to the part where f >= 0.
-void clip_to(Loop& loop, const Plane& f) {
+void clip_to(Loop& loop, const GapPlane& f) {
   const auto value = [&](int i) { return f.at(loop.corner[i]); };
   int inside = 0;
   for (int i = 0; i < loop.count; ++i) inside += value(i) >= 0;
@@ -91,7 +91,7 @@ double area(const Loop& loop) {
 }
 
 // Int u v dA of linear u and v; over a triangle A/12 (sum u sum v + sum u_i v_i).
-double product(const Loop& loop, const Plane& u, const Plane& v) {
+double product(const Loop& loop, const GapPlane& u, const GapPlane& v) {
   double sum = 0;
   triangles(loop, [&](double a, const Vec2& x, const Vec2& y, const Vec2& z) {
     const double u0 = u.at(x), u1 = u.at(y), u2 = u.at(z), v0 = v.at(x), v1 = v.at(y), v2 = v.at(z);
@@ -100,16 +100,16 @@ double product(const Loop& loop, const Plane& u, const Plane& v) {
   return sum;
 }
 
-double positive_product(Loop loop, const Plane& u, const Plane& v) {
+double positive_product(Loop loop, const GapPlane& u, const GapPlane& v) {
   clip_to(loop, v);
   return product(loop, u, v);
 }
 
 // Cuts the loop, where `z` is the plastic closing, to the part that still bears.
-void clip_to_bearing(Loop& loop, const CompressionFace& face, const Plane& z) {
+void clip_to_bearing(Loop& loop, const CompressionFace& face, const GapPlane& z) {
   if (face.ultimate > 0) clip_to(loop, {z.c + face.ultimate, z.s, z.t});
 }
-void clip_to_spent(Loop& loop, const CompressionFace& face, const Plane& z) {
+void clip_to_spent(Loop& loop, const CompressionFace& face, const GapPlane& z) {
   if (face.ultimate > 0) clip_to(loop, {-z.c - face.ultimate, -z.s, -z.t});
   else loop.count = 0;
 }
@@ -152,7 +152,7 @@ void thin_out(const CompressionFace& face, Envelope& z) {
   }
 }
 
-bool passes(const CompressionFace& face, const Envelope& z, const Plane& lower) {
+bool passes(const CompressionFace& face, const Envelope& z, const GapPlane& lower) {
   const double round_off = 1e-12 * face.limit;
   bool below = false;
   for (int i = 0; i < face.corners; ++i) below = below || lower.at(corner(face, i)) < -round_off;
@@ -160,7 +160,7 @@ bool passes(const CompressionFace& face, const Envelope& z, const Plane& lower) 
     Loop loop = whole(face);
     clip_to_region(loop, z, k);
     clip_to_bearing(loop, face, z.plane[k]);
-    const Plane over = z.plane[k] - lower;
+    const GapPlane over = z.plane[k] - lower;
     for (int i = 0; i < loop.count; ++i)
       if (over.at(loop.corner[i]) > round_off) return true;
   }
@@ -168,8 +168,8 @@ bool passes(const CompressionFace& face, const Envelope& z, const Plane& lower) 
 }
 
 // Where a step from gap g0 to g1 crushes the bed, at a gap of `face`.
-Plane crushed_by(const CompressionFace& face, const Plane& g) {
-  const Plane z{g.c + face.limit, g.s, g.t};
+GapPlane crushed_by(const CompressionFace& face, const GapPlane& g) {
+  const GapPlane z{g.c + face.limit, g.s, g.t};
   if (!(face.ultimate > 0)) return z;
   const double steeper = 1 / (1 - face.limit / face.ultimate);
   return {steeper * z.c, steeper * z.s, steeper * z.t};
@@ -177,9 +177,10 @@ Plane crushed_by(const CompressionFace& face, const Plane& g) {
 
 // Work (J) where the closing falls from z0 to z1 as the gap goes from g0 to g1, by the mean of the two pressures. A part that is spent by
 // it falls to g1 and bears nothing then; a part that was spent bears again only if its plane was dropped.
-double work_of(const CompressionFace& face, const Loop& loop, const Plane& z0, const Plane& z1, const Plane& g0, const Plane& g1) {
+double work_of(const CompressionFace& face, const Loop& loop, const GapPlane& z0, const GapPlane& z1, const GapPlane& g0,
+               const GapPlane& g1) {
   if (!(face.ultimate > 0)) {
-    const Plane fall = z0 - z1;
+    const GapPlane fall = z0 - z1;
     return 0.5 * face.kn * (positive_product(loop, fall, z0 - g0) + positive_product(loop, fall, z1 - g1));
   }
   Loop bore = loop, had_gone = loop;
@@ -206,7 +207,7 @@ const double& closing(const CrushedFace& crushed, int i) { return crushed.plane[
 double& closing(CrushedFace& crushed, int i) { return crushed.plane[i / 3][i % 3]; }
 bool spent(const CompressionFace& face, double z) { return face.ultimate > 0 && z <= -face.ultimate; }
 
-Pressed pressed_at_points(const CompressionFace& face, const CrushedFace& crushed, const Plane& gap) {
+Pressed pressed_at_points(const CompressionFace& face, const CrushedFace& crushed, const GapPlane& gap) {
   Pressed out;
   for (int i = 0; i < face.points; ++i) {
     const auto [at, area] = bearing_point(face, i);
@@ -216,8 +217,8 @@ Pressed pressed_at_points(const CompressionFace& face, const CrushedFace& crushe
   return out;
 }
 
-double crush_points(const CompressionFace& face, CrushedFace& crushed, const Plane& g0, const Plane& g1) {
-  const Plane lower = crushed_by(face, g1);
+double crush_points(const CompressionFace& face, CrushedFace& crushed, const GapPlane& g0, const GapPlane& g1) {
+  const GapPlane lower = crushed_by(face, g1);
   const double round_off = 1e-12 * face.limit;
   double work = 0;
   for (int i = 0; i < face.points; ++i) {
@@ -256,7 +257,7 @@ Pressed pressed(const CompressionFace& face, const CrushedFace& crushed, const d
   Pressed out;
   for (int k = 0; k < z.count; ++k) {
     Loop loop = whole(face);
-    const Plane y = z.plane[k] - plane(gap);
+    const GapPlane y = z.plane[k] - plane(gap);
     clip_to(loop, y);
     clip_to_region(loop, z, k);
     clip_to_bearing(loop, face, z.plane[k]);
@@ -270,7 +271,7 @@ Pressed pressed(const CompressionFace& face, const CrushedFace& crushed, const d
 
 double crush(const CompressionFace& face, CrushedFace& crushed, const double before[3], const double now[3]) {
   if (face.points > 0) return crush_points(face, crushed, plane(before), plane(now));
-  const Plane g0 = plane(before), g1 = plane(now), lower = crushed_by(face, g1);
+  const GapPlane g0 = plane(before), g1 = plane(now), lower = crushed_by(face, g1);
   const Envelope old = envelope(crushed);
   if (!passes(face, old, lower)) return 0;
   Envelope next = old;
@@ -289,7 +290,7 @@ double crush(const CompressionFace& face, CrushedFace& crushed, const double bef
   }
   crushed.planes = next.count - 1;
   for (int k = 0; k < next.count - 1; ++k) {
-    const Plane& p = next.plane[k + 1];
+    const GapPlane& p = next.plane[k + 1];
     crushed.plane[k][0] = p.c, crushed.plane[k][1] = p.s, crushed.plane[k][2] = p.t;
   }
   return work;

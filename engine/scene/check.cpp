@@ -33,14 +33,12 @@ bool inside(const Vec3& value, double low, double high) {
 template <class T>
 void check_fields(Report& report, const T& item, const std::string& label, const Place& place) {
   for (const Field<T>& field : T::fields())
-    std::visit(
-        [&](auto member) {
-          using Value = std::decay_t<decltype(item.*member)>;
-          if constexpr (std::is_same_v<Value, double> || std::is_same_v<Value, int> || std::is_same_v<Value, Vec3>)
-            if (!inside(item.*member, field.low, field.high))
-              report.say(place, "{}: {} is out of range; allowed is {:g} to {:g} {}", label, field.name, field.low, field.high, field.unit);
-        },
-        field.member);
+    field.member.visit([&](auto member) {
+      using Value = std::decay_t<decltype(item.*member)>;
+      if constexpr (std::is_same_v<Value, double> || std::is_same_v<Value, int> || std::is_same_v<Value, Vec3>)
+        if (!inside(item.*member, field.low, field.high))
+          report.say(place, "{}: {} is out of range; allowed is {:g} to {:g} {}", label, field.name, field.low, field.high, field.unit);
+    });
 }
 
 void check_materials(Report& report, const Scene& scene) {

@@ -60,7 +60,7 @@ int analysis(Call& call) {
   Analysis& into = call.context.scene.analysis;
   into.place = call.place;
   for (const auto& field : Analysis::fields())
-    if (field.name != "dt") std::visit([&](auto member) { arguments.read(std::string(field.name), into.*member); }, field.member);
+    if (field.name != "dt") field.member.visit([&](auto member) { arguments.read(std::string(field.name), into.*member); });
   read_push(call, arguments);
   std::string quality;
   arguments.read("quality", quality);

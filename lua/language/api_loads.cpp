@@ -75,7 +75,7 @@ int ground_records(Call& call) {
   Record common;
   arguments.read(files);
   for (const auto& field : Record::fields())
-    if (field.name != "file") std::visit([&](auto member) { arguments.read(std::string(field.name), common.*member); }, field.member);
+    if (field.name != "file") field.member.visit([&](auto member) { arguments.read(std::string(field.name), common.*member); });
   check_scale(arguments, common);
   std::array<Record, 3> wanted{common, common, common};
   const std::string* names[] = {&files.x, &files.y, &files.z};

@@ -21,30 +21,28 @@ template <class T>
 bool set_field(T& values, const std::string& key, const std::string& value, const std::string& setting) {
   for (const auto& field : T::fields()) {
     if (field.name != key) continue;
-    std::visit(
-        [&](auto member) {
-          using V = std::decay_t<decltype(values.*member)>;
-          if constexpr (std::is_same_v<V, std::string>) {
-            if (!field.words.empty() && ("|" + std::string(field.words) + "|").find("|" + value + "|") == std::string::npos)
-              throw Error(fmt::format("--set {}: must be one of {}", shown(setting), field.words));
-            values.*member = value;
-          } else if constexpr (std::is_same_v<V, double> || std::is_same_v<V, int> || std::is_same_v<V, bool>) {
-            double number = 0;
-            size_t used = 0;
-            try {
-              number = std::stod(value, &used);
-            } catch (const std::exception&) {}
-            constexpr bool whole = !std::is_same_v<V, double>;
-            const bool ranged = field.low < field.high && !std::is_same_v<V, bool>;
-            const double low = ranged ? field.low : 0, high = ranged ? field.high : 1;
-            if (value.empty() || used != value.size() || !(number >= low && number <= high) || (whole && number != std::floor(number)))
-              throw Error(fmt::format("--set {}: must be a {}number from {:g} to {:g}", shown(setting), whole ? "whole " : "", low, high));
-            values.*member = static_cast<V>(number);
-          } else {
-            throw Error(fmt::format("--set {}: only numbers and words can be set", setting));
-          }
-        },
-        field.member);
+    field.member.visit([&](auto member) {
+      using V = std::decay_t<decltype(values.*member)>;
+      if constexpr (std::is_same_v<V, std::string>) {
+        if (!field.words.empty() && ("|" + std::string(field.words) + "|").find("|" + value + "|") == std::string::npos)
+          throw Error(fmt::format("--set {}: must be one of {}", shown(setting), field.words));
+        values.*member = value;
+      } else if constexpr (std::is_same_v<V, double> || std::is_same_v<V, int> || std::is_same_v<V, bool>) {
+        double number = 0;
+        size_t used = 0;
+        try {
+          number = std::stod(value, &used);
+        } catch (const std::exception&) {}
+        constexpr bool whole = !std::is_same_v<V, double>;
+        const bool ranged = field.low < field.high && !std::is_same_v<V, bool>;
+        const double low = ranged ? field.low : 0, high = ranged ? field.high : 1;
+        if (value.empty() || used != value.size() || !(number >= low && number <= high) || (whole && number != std::floor(number)))
+          throw Error(fmt::format("--set {}: must be a {}number from {:g} to {:g}", shown(setting), whole ? "whole " : "", low, high));
+        values.*member = static_cast<V>(number);
+      } else {
+        throw Error(fmt::format("--set {}: only numbers and words can be set", setting));
+      }
+    });
     return true;
   }
   return false;
@@ -75,7 +73,7 @@ void stiffen(JointRule& rule, double factor) {
         using L = std::decay_t<decltype(law)>;
         for (const auto& field : L::fields())
           if (field.name == "kn" || field.name == "ks" || field.name == "E" || field.name == "G")
-            if (const auto* member = std::get_if<double L::*>(&field.member)) law.*(*member) *= factor;
+            if (field.member.number != nullptr) law.*field.member.number *= factor;
       },
       rule.law);
 }

@@ -45,16 +45,14 @@ Keys keys_of() {
             std::string(field.words),
             "",
             {}};
-    std::visit(
-        [&](auto member) {
-          using Value = std::decay_t<decltype(made.*member)>;
-          if constexpr (std::is_same_v<Value, double>) key.type = "number", key.fallback = written(made.*member);
-          if constexpr (std::is_same_v<Value, int>) key.type = "integer", key.fallback = std::to_string(made.*member);
-          if constexpr (std::is_same_v<Value, bool>) key.type = "boolean", key.fallback = made.*member ? "true" : "false";
-          if constexpr (std::is_same_v<Value, std::string>) key.type = "string", key.fallback = made.*member;
-          if constexpr (std::is_same_v<Value, Vec3>) key.type = "vec3", key.fallback = written(made.*member);
-        },
-        field.member);
+    field.member.visit([&](auto member) {
+      using Value = std::decay_t<decltype(made.*member)>;
+      if constexpr (std::is_same_v<Value, double>) key.type = "number", key.fallback = written(made.*member);
+      if constexpr (std::is_same_v<Value, int>) key.type = "integer", key.fallback = std::to_string(made.*member);
+      if constexpr (std::is_same_v<Value, bool>) key.type = "boolean", key.fallback = made.*member ? "true" : "false";
+      if constexpr (std::is_same_v<Value, std::string>) key.type = "string", key.fallback = made.*member;
+      if constexpr (std::is_same_v<Value, Vec3>) key.type = "vec3", key.fallback = written(made.*member);
+    });
     if (field.text.find("(default") != std::string_view::npos || key.required) key.fallback.clear();
     keys.push_back(std::move(key));
   }
@@ -73,7 +71,7 @@ class Arguments {
   bool has(const std::string& key) const;
   template <class T>
   void read(T& item) {  // reads all keys of T's field list that are present
-    for (const Field<T>& field : T::fields()) std::visit([&](auto member) { read(std::string(field.name), item.*member); }, field.member);
+    for (const Field<T>& field : T::fields()) field.member.visit([&](auto member) { read(std::string(field.name), item.*member); });
   }
   void read(const std::string& key, double& into);
   void read(const std::string& key, int& into);

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "engine/analysis/newton.h"
+#include "engine/base/symmetric.h"
 #include "engine/solve/linear/stiffness.h"
 
 namespace erbs::analysis {
@@ -25,7 +26,7 @@ std::vector<double> block_rates(const Model& m, const State& s) {
   for (int b = 0; b < m.nblock; ++b) {
     if (m.kind[z(b)] != Kind::moving) continue;
     const Mat6 root = roots.of(b);
-    out[z(b)] = std::max(0.0, Eigen::SelfAdjointEigenSolver<Mat6>(Mat6(root * own[z(b)] * root)).eigenvalues()[5]);
+    out[z(b)] = std::max(0.0, largest_eigenvalue(root * own[z(b)] * root));
   }
   return out;
 }

@@ -6,6 +6,7 @@
 #include <unordered_map>
 
 #include "engine/base/error.h"
+#include "engine/base/symmetric.h"
 #include "engine/geometry/mass.h"
 
 namespace erbs {
@@ -127,7 +128,6 @@ void set_face_omega2(ContactShape& s, const ContactBlock& block) {
   Mat6 root = Mat6::Zero();  // root root^T = M^-1
   root.topLeftCorner<3, 3>() = std::sqrt(block.inverse_mass) * Mat3::Identity();
   root.bottomRightCorner<3, 3>() = block.inverse_tensor.llt().matrixL();
-  const auto largest = [](const Mat6& k) { return Eigen::SelfAdjointEigenSolver<Mat6>(k, Eigen::EigenvaluesOnly).eigenvalues()[5]; };
   for (std::size_t f = 0; f < s.normal.size(); ++f) {
     Mat6 across = Mat6::Zero(), along = Mat6::Zero();
     const Vec3 n = s.normal[f], t = n.unitOrthogonal(), b = n.cross(t);
@@ -146,8 +146,8 @@ void set_face_omega2(ContactShape& s, const ContactBlock& block) {
         add(n, across), add(t, along), add(b, along);
       }
     }
-    s.face_across = std::max(s.face_across, largest(across));
-    s.face_along = std::max(s.face_along, largest(along));
+    s.face_across = std::max(s.face_across, largest_eigenvalue(across));
+    s.face_along = std::max(s.face_along, largest_eigenvalue(along));
   }
 }
 

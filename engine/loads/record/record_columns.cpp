@@ -47,7 +47,7 @@ bool is_names(std::string_view line) {
   return first == '"' || std::isalpha(static_cast<unsigned char>(first)) != 0;
 }
 
-struct Rows {
+struct RecordRows {
   std::vector<std::vector<double>> cells;
   std::vector<int> lines;       // line of the file, for each row
   std::vector<Column> columns;  // from the line of names; empty without one
@@ -68,8 +68,8 @@ bool decimal_commas(const RecordText& text, const Record& wanted) {
   return has_decimal_commas(text, first, text.lines.size(), wanted.dt > 0);
 }
 
-Rows parse_rows(RecordText& text, const Record& wanted) {
-  Rows rows;
+RecordRows parse_rows(RecordText& text, const Record& wanted) {
+  RecordRows rows;
   const bool commas = decimal_commas(text, wanted);
   for (size_t i = 0; i < text.lines.size(); ++i) {
     const std::string& line = text.lines[i];
@@ -91,7 +91,7 @@ Rows parse_rows(RecordText& text, const Record& wanted) {
   return rows;
 }
 
-void check_widths(const RecordText& text, const Rows& rows) {
+void check_widths(const RecordText& text, const RecordRows& rows) {
   const size_t width = rows.columns.empty() ? rows.cells.front().size() : rows.columns.size();
   for (size_t r = 0; r < rows.cells.size(); ++r)
     if (rows.cells[r].size() != width)
@@ -100,7 +100,7 @@ void check_widths(const RecordText& text, const Rows& rows) {
 }
 
 // Values without times, one or several per line, read line by line.
-RecordFile parse_values(const RecordText& text, const Rows& rows, const Record& wanted) {
+RecordFile parse_values(const RecordText& text, const RecordRows& rows, const Record& wanted) {
   const Place place{text.path, rows.lines.front()};
   if (wanted.dt <= 0)
     throw Error("the file has no times; say the step between its values, such as dt = 0.01 in the scene, or --dt 0.01 to erbs record",
@@ -117,7 +117,7 @@ RecordFile parse_values(const RecordText& text, const Rows& rows, const Record& 
 // A unit of time in brackets tells the column of times in any language: "Zeit [s]".
 double seconds_per(const std::string& unit) { return unit == "s" || unit == "sec" ? 1 : unit == "ms" ? 1e-3 : 0; }
 
-size_t time_column(const Rows& rows) {
+size_t time_column(const RecordRows& rows) {
   for (size_t c = 0; c < rows.columns.size(); ++c) {
     const std::string name = lower(rows.columns[c].name);
     if (name == "t" || name.rfind("time", 0) == 0) return c;
@@ -128,7 +128,7 @@ size_t time_column(const Rows& rows) {
 }
 
 // Seconds per unit of the times. An unknown name such as time_h is an Error, not a guess.
-double time_factor(const RecordText& text, const Rows& rows, size_t column) {
+double time_factor(const RecordText& text, const RecordRows& rows, size_t column) {
   if (rows.columns.empty()) return 1;
   const std::string name = lower(rows.columns[column].name), unit = lower(trim(rows.columns[column].unit));
   if (const double seconds = seconds_per(unit); seconds > 0) return seconds;
@@ -138,7 +138,7 @@ double time_factor(const RecordText& text, const Rows& rows, size_t column) {
               {text.path, rows.names_line});
 }
 
-RecordFile parse_time_and_value(const RecordText& text, const Rows& rows, const Record& wanted) {
+RecordFile parse_time_and_value(const RecordText& text, const RecordRows& rows, const Record& wanted) {
   check_widths(text, rows);
   const size_t width = rows.cells.front().size(), time = time_column(rows);
   const int head = rows.names_line > 0 ? rows.names_line : rows.lines.front();
@@ -166,7 +166,7 @@ RecordFile parse_time_and_value(const RecordText& text, const Rows& rows, const 
 }  // namespace
 
 RecordFile parse_columns(RecordText& text, const Record& wanted) {
-  const Rows rows = parse_rows(text, wanted);
+  const RecordRows rows = parse_rows(text, wanted);
   if (rows.cells.empty()) throw Error("the record file holds no numbers; give a file with values", {text.path});
   const size_t width = rows.cells.front().size();
   if (width == 1 || (width > 2 && wanted.dt > 0 && rows.columns.empty() && wanted.column == 0)) {

@@ -19,12 +19,10 @@ Json json_of_fields(const T& item) {
   Json json = Json::object();
   for (const auto& field : T::fields()) {
     Json value;
-    std::visit(
-        [&](auto member) {
-          if constexpr (std::is_same_v<decltype(member), Vec3 T::*>) value = json_of(item.*member);
-          else value = item.*member;
-        },
-        field.member);
+    field.member.visit([&](auto member) {
+      if constexpr (std::is_same_v<decltype(member), Vec3 T::*>) value = json_of(item.*member);
+      else value = item.*member;
+    });
     json[std::string(field.name)] = {{"value", value}, {"unit", std::string(field.unit)}};
   }
   return json;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "engine/base/sparse.h"
+#include "engine/base/symmetric.h"
 #include "engine/contact/broad/search.h"
 #include "engine/contact/law/patch_stiffness.h"
 #include "engine/solve/linear/stiffness.h"
@@ -144,8 +145,7 @@ double ContactLimit::share_of(const ContactBlock& block, const Mat6& k, double f
   Mat6 root = Mat6::Zero();  // root root^T = M^-1
   root.topLeftCorner<3, 3>() = std::sqrt(block.inverse_mass) * Mat3::Identity();
   root.bottomRightCorner<3, 3>() = block.rotation * Mat3(block.inverse_tensor.llt().matrixL());
-  const Mat6 scaled = root.transpose() * k * root;
-  return inverse_square(Eigen::SelfAdjointEigenSolver<Mat6>(scaled, Eigen::EigenvaluesOnly).eigenvalues()[5], contact_share);
+  return inverse_square(largest_eigenvalue(root.transpose() * k * root), contact_share);
 }
 
 // `share_of` each moving block: by its trace only where that is below .35 of the largest so far.

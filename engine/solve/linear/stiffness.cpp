@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/base/symmetric.h"
 #include "engine/base/units.h"
 #include "engine/joints/kinematics.h"
 #include "engine/solve/linear/eigenvalue.h"
@@ -169,9 +170,7 @@ StepBounds step_bounds(const Model& m, const State& s) {
   for (int b = 0; b < m.nblock; ++b) {
     if (m.kind[z(b)] != Kind::moving) continue;
     const Mat6 root = roots.of(b);
-    const auto largest = [&](const Mat6& k) {
-      return std::max(0.0, Eigen::SelfAdjointEigenSolver<Mat6>(Mat6(root * k * root)).eigenvalues()[5]);
-    };
+    const auto largest = [&](const Mat6& k) { return std::max(0.0, largest_eigenvalue(root * k * root)); };
     const double free = out.of_block[z(b)] = std::sqrt(2 / largest(own[z(b)]));
     const double limit = longest_step(free, viscous, 2, 1e-7, [&](double dt) { return largest(own[z(b)] + 2 / dt * damping[z(b)]); });
     if (!std::isfinite(limit)) continue;

@@ -90,7 +90,7 @@ TEST_CASE("slopes are those of each knob's own error, whatever the others leave"
   settle_reference(q, 0, all);
   const auto curves = curves_of(q, 0, all);
   REQUIRE(curves.size() == 2);
-  for (const Curve& c : curves) {
+  for (const study::Curve& c : curves) {
     INFO(c.knob);
     REQUIRE(c.slope);
     CHECK(*c.slope == Approx(2).epsilon(0.02));

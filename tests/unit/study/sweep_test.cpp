@@ -53,7 +53,7 @@ TEST_CASE("the points of a study are every combination, the last axis fastest", 
   REQUIRE(point_count(plan) == 6);
   std::set<std::pair<double, double>> all;
   for (std::int64_t i = 0; i < 6; ++i) {
-    const Point point = point_at(plan, i);
+    const study::Point point = point_at(plan, i);
     CHECK(point[0].first == "a");
     CHECK(number(point[0].second) == double(1 + i / 3));
     CHECK(number(point[1].second) == double(10 * (1 + i % 3)));

@@ -93,12 +93,12 @@ TEST_CASE("joints have the state of their damage and opening", "[render][quantit
   frame.opening[4] = frame.opening[5] = static_cast<float>(1.01 * show.open_crack);
   frame.opening[6] = static_cast<float>(0.9 * show.open_crack);
   const FrameTexels t = texels_of(show, frame, Coloring::joint_state, Vec3(5, -5, 3));
-  const auto state = [&](std::size_t j) { return static_cast<JointState>(static_cast<int>(t.joints[4 * j + 2])); };
-  CHECK(state(2) == JointState::intact);
-  CHECK(state(3) == JointState::cracked);
-  CHECK(state(4) == JointState::open);
-  CHECK(state(5) == JointState::open);
-  CHECK(state(6) == JointState::intact);
+  const auto state = [&](std::size_t j) { return static_cast<render::JointState>(static_cast<int>(t.joints[4 * j + 2])); };
+  CHECK(state(2) == render::JointState::intact);
+  CHECK(state(3) == render::JointState::cracked);
+  CHECK(state(4) == render::JointState::open);
+  CHECK(state(5) == render::JointState::open);
+  CHECK(state(6) == render::JointState::intact);
   CHECK(5 * t.crack_index.size() > 2 * show.mesh.crack_index.size());  // intact joints are lines as well, where they look towards the eye
   CHECK(texels_of(show, frame, Coloring::material, Vec3(5, -5, 3)).crack_index.size() < t.crack_index.size());
 }

@@ -30,15 +30,15 @@ double length_of(const std::vector<Piece>& pieces) {
   return sum;
 }
 
-using Corners = std::vector<Vec3>;
+using FaceCorners = std::vector<Vec3>;
 
 // Faces of a turned box.
-std::vector<Corners> box(const Vec3& at, const Vec3& half, const Quat& turn) {
-  std::vector<Corners> faces;
+std::vector<FaceCorners> box(const Vec3& at, const Vec3& half, const Quat& turn) {
+  std::vector<FaceCorners> faces;
   for (int axis = 0; axis < 3; ++axis)
     for (const double side : {-1.0, 1.0}) {
       const Vec3 out = side * Vec3::Unit(axis), u = Vec3::Unit((axis + 1) % 3), v = out.cross(u);
-      Corners loop;
+      FaceCorners loop;
       for (const auto& [s, t] : {std::pair{1, 1}, {-1, 1}, {-1, -1}, {1, -1}})
         loop.push_back(at + turn * (out + s * u + t * v).cwiseProduct(half));
       faces.push_back(loop);
@@ -84,17 +84,17 @@ TEST_CASE("visible parts of lines among boxes are those that rays reach", "[rend
   const Camera camera = camera_at({4, -9, 5}, {0, 0, 0});
   const Projection projection(camera, parallel, 640, 480, 0, 0);
   HiddenLines lines(projection, 640, 480, 1e-5);
-  std::vector<std::vector<Corners>> boxes;
+  std::vector<std::vector<FaceCorners>> boxes;
   for (int k = 0; k < 25; ++k) {
     const Quat turn = Quat(any(random), any(random), any(random), any(random)).normalized();
     boxes.push_back(box(2 * Vec3(any(random), any(random), any(random)), Vec3(0.4, 0.25, 0.15), turn));
-    for (const Corners& face : boxes.back()) lines.add_face(face, k);
+    for (const FaceCorners& face : boxes.back()) lines.add_face(face, k);
   }
   const auto covered = [&](const Vec3& p) {  // by the faces between it and the eye; also how nearly
     const Vec3 way = parallel ? Vec3(100 * projection.back()) : Vec3(camera.eye - p);
     bool hidden = false, close = false;
-    for (const std::vector<Corners>& body : boxes)
-      for (const Corners& face : body) {
+    for (const std::vector<FaceCorners>& body : boxes)
+      for (const FaceCorners& face : body) {
         const Vec3 n = (face[1] - face[0]).cross(face[2] - face[0]).normalized();
         const double s = (face[0] - p).dot(n) / way.dot(n);
         if (!(s > 0) || s * way.norm() > 50) continue;
