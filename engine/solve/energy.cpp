@@ -14,17 +14,23 @@ constexpr int ledger_every = 32;     // steps between two closings of the ledger
 constexpr int ledger_slowly = 128;   // ... with contacts, ...
 constexpr int ledger_seldom = 4096;  // ... in a scene without a ledger
 
-// J, of all moving blocks at the greatest speed of a driven one: the measure of a structure without weight, which driven blocks set in
-// motion.
+// J, of all moving blocks at the greatest speed of a point that moves with a driven block, as far from it as the farthest of them: the
+// measure of a structure without weight, which driven blocks set in motion.
 double driven_energy(const Model& model, double mass) {
   constexpr int samples = 1000;
   const double h = model.analysis.duration / samples;
   double fastest = 0;
-  for (const Model::PrescribedMotion& motion : model.prescribed_motions)
-    for (int i = 0; i < samples; ++i) {
-      const auto at = [&](double t) { return prescribed_pose(model, motion.block, t, Quat::Identity()).u; };
-      fastest = std::max(fastest, (at((i + 1) * h) - at(i * h)).norm() / h);
+  for (const Model::PrescribedMotion& motion : model.prescribed_motions) {
+    double arm = 0;
+    for (std::size_t b = 0; b < model.kind.size(); ++b)
+      if (model.kind[b] == Kind::moving) arm = std::max(arm, (model.rest[b] - model.rest[std::size_t(motion.block)]).norm());
+    PrescribedPose from = prescribed_pose(model, motion.block, 0, Quat::Identity());
+    for (int i = 1; i <= samples; ++i) {
+      const PrescribedPose to = prescribed_pose(model, motion.block, i * h, Quat::Identity());
+      fastest = std::max(fastest, ((to.u - from.u).norm() + arm * from.q.angularDistance(to.q)) / h);
+      from = to;
     }
+  }
   return 0.5 * mass * fastest * fastest;
 }
 

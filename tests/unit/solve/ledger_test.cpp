@@ -92,6 +92,22 @@ TEST_CASE("the gate fails as soon as one term of the ledger books a tenth too li
   }
 }
 
+TEST_CASE("without gravity the measure of the ledger is the motion of the driven blocks, also if they only turn", "[solve][ledger]") {
+  const std::string scene = head + block + "box{ name = 'top', size = {.4, .4, .2}, center = {0, 0, .14} } gravity(0)" +
+                            " joint{ law = mortar{ kn = 1e9, ks = 4e8, ft = 1e8, c = 1e8, mu = 0.6 } } analysis{ duration = .1 }";
+  const auto reference = [&](const std::string& motion) {
+    Script script(Script::Options{.quiet = true});
+    const Scene loaded = script.load_text(scene + motion, "driven.lua", {});
+    Prepared run = prepare(loaded, false);
+    const Solver solver(run.model, run.state, run.range, 1);
+    return run.state.energy.reference;
+  };
+  const double mass = 2000 * .4 * .4 * .2, arm = .12, speed = .03, spin = .2;
+  CHECK(reference("motion{ block = 'block', wave = function(t) return .03 * t end }") == Approx(mass / 2 * speed * speed).epsilon(1e-3));
+  CHECK(reference("turning{ block = 'block', axis = 'y', wave = function(t) return .2 * t end }") ==
+        Approx(mass / 2 * spin * spin * arm * arm).epsilon(1e-3));
+}
+
 TEST_CASE("the gate fails when a tenth of what is stored is lost, or anything appears in reset", "[solve][ledger]") {
   // A wall in full swing under its pulse: kinetic and elastic energy, potential energy and work of the ground.
   const Scene scene = test::small_wall("ground_motion{wave=pulse{amplitude=0.5, duration=0.02}, direction='y'} analysis{duration=0.05}");
