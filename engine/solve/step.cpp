@@ -15,8 +15,7 @@ namespace erbs {
 namespace {
 
 constexpr int find_soft_every = 64;  // steps between two searches for former joints that must soften, ...
-constexpr int soften_every = 8;      // ... and between two steps of their softening
-constexpr int fade_every = 8;        // steps between two reductions of the stiffness of beds without bond
+constexpr int soften_every = 8;      // ... and between two steps of their softening, of beds that fade: `Fading::every()`
 constexpr int balance_every = 32;    // steps between two changes of the shares of threads, ...
 constexpr int timed_every = 5;       // ... and between two whose time is taken for them: no multiple of the steps in a macro step
 constexpr int regroup_every = 256;   // steps between two orderings of cracked joints in their packs
@@ -98,7 +97,8 @@ void Solver::prepare_step(const SamplePlan& plan) {
   if (std::ranges::any_of(block_sums_, &BlockSums::outdated)) update_outdated();
   const bool debris = model_.analysis.debris, cracked = joints_.any_cracked();
   if (cracked && !joints_.reference() && every(regroup_every, time)) joints_.regroup();
-  if (cracked && !state_.joints.share.empty() && every(fade_every, time)) fading_.fade(joints_.cracked(), interval(fade_every, time));
+  if (const int steps = Fading::every(time.dt); cracked && !state_.joints.share.empty() && every(steps, time))
+    fading_.fade(joints_.cracked(), interval(steps, time));
   const int look_every = model_.nblock > few_blocks ? watch_every : watch_few_every;
   // Past the limit of the step on purpose, joints alone fly apart: contact would shorten the step.
   const double ahead = model_.analysis.unstable ? 0 : 2 * look_every * time.dt;
@@ -157,8 +157,8 @@ void Solver::transitions() {
     }
   }
   const double softened = event_tolerance * state_.energy.reference;
-  if (has_contacts_ && every(soften_every, time))
-    contacts_.soften_former_joints(softened, every(find_soft_every, time), interval(soften_every, time));
+  const int steps = state_.joints.share.empty() ? soften_every : Fading::every(time.dt);
+  if (has_contacts_ && every(steps, time)) contacts_.soften_former_joints(softened, every(find_soft_every, time), interval(steps, time));
   if (has_contacts_ && contacts_.sleep(loads_.now(), contact_wrench_.data())) note_sleep();
   if (!may_release) return;
   fading_.book(joints_.cracked());  // before a release clears the memory of its joints

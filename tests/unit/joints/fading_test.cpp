@@ -59,3 +59,24 @@ TEST_CASE("a bed without kn_cracked does not fade", "[joints]") {
   test::run_to(test::small_wall(std::string(shake) + "}"), 1, 0.05, run);
   CHECK(run.state.joints.share.empty());
 }
+
+TEST_CASE("a bed fades within the same time whatever the step", "[joints]") {
+  const auto share_left = [](double fraction) {
+    Script script(Script::Options{.quiet = true});
+    const Scene scene = script.load_text(
+        "material{ name = 'brick', density = 1800 } box{ name = 'base', size = {1, 1, .2}, at = {0, 0, -.2}, fixed = true }"
+        "box{ name = 'b', size = {.3, .3, .3}, at = {.3, .3, .01} }"
+        "joint{ law = mortar{ kn = 1e9, ft = 1e3, c = 1e3, mu = .7, kn_cracked = 1e6 }, thickness = .01 }"
+        "force{ block = 'b', wave = half_sine{ amplitude = 600, frequency = 50 }, direction = 'z' } analysis{ duration = .1, dt_fraction "
+        "= " +
+            std::to_string(fraction) + "}",
+        "bed.lua", {});
+    Prepared run;
+    test::run_to(scene, 1, 0.05, run);
+    return run.state.joints.share.front().n;
+  };
+  const double fine = share_left(.05);
+  CHECK(fine < .05);
+  CHECK(fine > .005);
+  for (const double fraction : {.9, .3, .1}) CHECK(share_left(fraction) == Approx(fine).epsilon(.2));
+}
