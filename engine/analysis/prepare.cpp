@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 
+#include "engine/analysis/resting.h"
 #include "engine/base/random.h"
 #include "engine/base/units.h"
 #include "engine/contact/overlap/shape.h"
@@ -99,9 +100,10 @@ void choose_dt(const Scene& scene, Prepared& p, bool allow_unstable) {
   const double allowed = stability_limit(a, b);
   if (jointed && dt > allowed && !a.unstable && !allow_unstable)
     throw Error(
-        fmt::format("analysis: dt = {:.4g} s is {:.3f} times the limit {} = {:.4g} s of this structure; take at most {:.3g} s, or let it "
+        fmt::format("analysis: dt = {:.4g} s is {:.3f} times the limit {} = {:.4g} s of this structure{}; take at most {:.3g} s, or let it "
                     "diverge with dt = {{ {:.4g}, unstable = true }} or --allow-unstable",
                     dt, dt / allowed, allowed == b.critical ? "2 / omega_max" : "2 / omega_block of the sequential sweep", allowed,
+                    b.stiffest_block < 0 ? "" : fmt::format(", set by the joints of block \"{}\"", p.model.block_name[z(b.stiffest_block)]),
                     0.9 * allowed, dt),
         a.place);
   if (jointed && dt <= b.critical && dt > b.cracked)
@@ -332,12 +334,7 @@ std::vector<std::uint8_t> kept_still(const Prepared& p) {
 }
 
 void warn_of_fallers(Prepared& p) {
-  if (p.fallers.empty()) return;
-  std::string names;
-  for (std::size_t i = 0; i < std::min<std::size_t>(5, p.fallers.size()); ++i)
-    names += (i == 0 ? " " : ", ") + p.model.block_name[z(p.fallers[i])];
-  if (p.fallers.size() > 5) names += fmt::format(" and {} more", p.fallers.size() - 5);
-  p.warnings.push_back(fmt::format("not at rest under its own weight:{}", names));
+  if (!p.fallers.empty()) p.warnings.push_back("not at rest under its own weight: " + names_of(p.model, p.fallers));
 }
 
 }  // namespace
@@ -349,6 +346,7 @@ Metrics::Equilibrium equilibrium_metrics(const Prepared& p) {
 void start_at_rest(const Scene& scene, Prepared& p, int threads) {
   const auto began = std::chrono::steady_clock::now();
   if (scene.analysis.start == "equilibrium" && starts_loaded(p.model) && p.model.njoint > 0) {
+    if (const std::string warning = warning_of_resting(p.model, p.state); !warning.empty()) p.warnings.push_back(warning);
     for (int iteration = 0; iteration < 3; ++iteration) {  // arms of the loads rotate with their blocks
       p.equilibrium = settle(p.model, p.state, constant_loads(p.model, p.state));
       if (p.model.force_loads.empty()) break;
