@@ -53,7 +53,7 @@ namespace {
 std::string warned_text(const Metrics::Diagnostics& t) {
   std::string text;
   const auto add = [&](double share, const char* of) {
-    if (share > 0) text += fmt::format("{}{:.2g} % {}", text.empty() ? "" : ", ", 100 * share, of);
+    if (share > 0) text += fmt::format("{}{:.3g} % {}", text.empty() ? "" : ", ", 100 * share, of);
   };
   add(t.past_tolerance_share, "energy residual above its tolerance");
   add(t.past_step_share, "dt above its limit");

@@ -62,7 +62,8 @@ void print(const LimitResult& r, const LimitLoad& load, const Model& model) {
   if (r.has_nonassociated)
     print_row("non-associated", r.nonassociated, fmt::format("   {} rounds, {} iterations", r.rounds, r.nonassociated.iterations));
   if (load.pattern.empty())
-    say("lambda is a share of g along ({:.4g}, {:.4g}, {:.4g})\n", load.direction.x(), load.direction.y(), load.direction.z());
+    say("lambda is a share of g along ({:.4g}, {:.4g}, {:.4g})\n", load.direction.x() + 0.0, load.direction.y() + 0.0,
+        load.direction.z() + 0.0);
   else say("lambda multiplies the pattern of forces\n");
   if (const auto tilt = tilt_angle(r, load, model)) say("tilting angle    {:.3f} deg   atan(lambda): a tilted base or gravity\n", *tilt);
   say("mechanism        {}\n", mechanism);

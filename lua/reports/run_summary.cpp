@@ -25,8 +25,9 @@ std::string collapse_text(const Analysis& how, const Json& metrics) {
   const Json* weight = find_key(metrics, "collapse.under_gravity");
   const bool under_gravity = weight && weight->is_boolean() && weight->get<bool>();
   const Json* direction = find_key(metrics, "collapse.direction");
+  const auto hundredths = [&](std::size_t i) { return std::round(100 * (*direction)[i].get<double>()) / 100 + 0.0; };  // no "-0.00"
   const std::string towards = direction && direction->is_array() && direction->size() >= 2
-                                  ? fmt::format(" towards ({:+.2f}, {:+.2f})", (*direction)[0].get<double>(), (*direction)[1].get<double>())
+                                  ? fmt::format(" towards ({:+.2f}, {:+.2f})", hundredths(0), hundredths(1))
                                   : " in no single direction";
   std::string text = under_gravity ? fmt::format("does not stand under its own weight; {:.0f} % of the mass fell by the end", 100 * share)
                                    : fmt::format("collapse {}{}; {:.0f} % of the mass has fallen by the end",

@@ -203,7 +203,9 @@ std::vector<Panel> history_panels(const CsvTable& table, std::vector<std::string
       if (words.size() > 4 && words.compare(words.size() - 4, 4, f) == 0) frame = f;
     for (const char* a : {"x", "y", "z"})
       for (const std::string& end : {std::string(a), a + std::string(" rel"), a + std::string(" abs")})
-        if (words.size() > end.size() + 1 && words.compare(words.size() - end.size(), end.size(), end) == 0) axis = a;
+        // "ux" and "u x", not "max"
+        if (const std::size_t at = words.size() - end.size(); words.size() > end.size() + 1 && words.compare(at, end.size(), end) == 0)
+          if (words[at - 1] == ' ' || words[at - 2] == ' ') axis = a;
     // A quantity without a unit gets an axis of its own.
     const std::string key = unit + "/" + axis + frame + (unit.empty() ? words : "");
     auto known = std::find_if(by_unit.begin(), by_unit.end(), [&](const auto& p) { return p.first == key; });
