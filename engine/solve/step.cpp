@@ -97,7 +97,7 @@ void Solver::prepare_step(const SamplePlan& plan) {
   if (std::ranges::any_of(block_sums_, &BlockSums::outdated)) update_outdated();
   const bool debris = model_.analysis.debris, cracked = joints_.any_cracked();
   if (cracked && !joints_.reference() && every(regroup_every, time)) joints_.regroup();
-  if (const int steps = Fading::every(time.dt); cracked && !state_.joints.share.empty() && every(steps, time))
+  if (const int steps = Fading::every(time.last_dt); cracked && !state_.joints.share.empty() && every(steps, time))
     fading_.fade(joints_.cracked(), interval(steps, time));
   const int look_every = model_.nblock > few_blocks ? watch_every : watch_few_every;
   // Past the limit of the step on purpose, joints alone fly apart: contact would shorten the step.
@@ -157,7 +157,7 @@ void Solver::transitions() {
     }
   }
   const double softened = event_tolerance * state_.energy.reference;
-  const int steps = state_.joints.share.empty() ? soften_every : Fading::every(time.dt);
+  const int steps = state_.joints.share.empty() ? soften_every : Fading::every(time.last_dt);
   if (has_contacts_ && every(steps, time)) contacts_.soften_former_joints(softened, every(find_soft_every, time), interval(steps, time));
   if (has_contacts_ && contacts_.sleep(loads_.now(), contact_wrench_.data())) note_sleep();
   if (!may_release) return;
