@@ -67,7 +67,7 @@ void press(ContactPair& pair, const PairFrame& s, Patch& patch, const PairSettin
   w.closing_speed[0] = patch.closing_speed;
   scalar::dashpot<double>(w, settings);
   Vec3 first;
-  w.damping[0][0] = damping(room, patch.normal, w.lag[0] * w.chi[0], w.limit[0], first);
+  w.damping[0][0] = damping(room, patch.normal, w.chi[0], w.limit[0], first);
   set(w.damping + 1, first);
   scalar::lagging<double>(w);
   limit_friction(w, settings, new_here);

@@ -80,7 +80,7 @@ unsigned up_to_springs(const PairTask* task, int count, const PairSettings& set,
   for (int l = 0; l < 8; ++l) {
     double total = 0, first[3] = {};
     const double normal[3] = {w.normal[0][l], w.normal[1][l], w.normal[2][l]};
-    if (l < count && (left_out >> l & 1u) == 0) clips.damp(triangles[l], normal, w.lag[l] * w.chi[l], w.limit[l], total, first);
+    if (l < count && (left_out >> l & 1u) == 0) clips.damp(triangles[l], normal, w.chi[l], w.limit[l], total, first);
     w.damping[0][l] = total;
     for (int i = 0; i < 3; ++i) w.damping[1 + i][l] = first[i];
   }

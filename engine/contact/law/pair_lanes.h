@@ -28,7 +28,7 @@ struct alignas(64) PairPackOf {
   Row closing_speed;             // m/s
   Row inverse_mass, chi, limit;  // of the dashpot
   Row lag;                       // of its force, in steps: what the blow asks for over `chi`, which the step bears
-  Row damping[4];                // total and first moment from `ClipKernels::damp` at lag chi, then lagging; kn = 1
+  Row damping[4];                // total and first moment from `ClipKernels::damp`, then lagging; kn = 1
   // Friction: springs with their slip, dashpots, and the part within the limit.
   Row u0[3], psi0, u1[3], psi1, kt, kr, springs[3], torsion, dashpots[3], dashpot_torsion, lever[3], held, most, radius, share;
   Row holds;  // 1: springs and dashpots are surely within the limit

@@ -122,8 +122,9 @@ ERBS_INLINE void store_wrench(Lanes<T>* x, const Wrench<T>& w, MaskFor<T> swappe
 }
 
 // The dashpot that a blow asks for may be stronger than a step bears, as where a heavy block lands on a light one: then the force follows
-// it as a spring in series with it would, F' = (c v - F) / (lag dt). To the trembling of the light block it is the capped dashpot, to the
-// slower blow of the heavy one the whole.
+// it as that of a spring in series with it would, F' = (c v - F) / (lag dt); c / lag is what the step bears. To the trembling of the light
+// block it is the capped dashpot, to the slower blow of the heavy one the whole. Rocking of the faces on each other is damped by the cap
+// alone.
 template <class T>
 static void lagging(PairPackFor<T>& w) {
   const T lag = load<T>(w.lag), size = load<T>(w.size), limit = load<T>(w.limit);
@@ -132,7 +133,7 @@ static void lagging(PairPackFor<T>& w) {
   const Wrench<T> last = load_wrench<T>(w.p + p_damping, load<T>(w.swapped) > 0);
   const Vec3<T> n = columns<T>(w.r + b_rotation) * load3(w.normal), first = load3(w.damping + 1);
   const T total = load<T>(w.damping[0]), before = dot(n, last.force) / nonzero(load<T>(w.p[p_kn]));
-  const T now = max(-size, min((limit - 1) * size, before + (total - before) / lag));
+  const T now = max(-size, min((limit - 1) * size, total + (1 - 1 / lag) * before));
   store(w.damping[0], select(lags, now, total));
   store3(w.damping + 1, select(lags, first + (now - total) * load3(w.pressure_centre), first));
 }
