@@ -69,7 +69,6 @@ void press(ContactPair& pair, const PairFrame& s, Patch& patch, const PairSettin
   Vec3 first;
   w.damping[0][0] = damping(room, patch.normal, w.chi[0], w.limit[0], first);
   set(w.damping + 1, first);
-  scalar::lagging<double>(w);
   limit_friction(w, settings, new_here);
   scalar::finish<double>(w, settings);
   scalar::write(w.p, pair_rows, &pair.law.kn);

@@ -84,7 +84,6 @@ unsigned up_to_springs(const PairTask* task, int count, const PairSettings& set,
     w.damping[0][l] = total;
     for (int i = 0; i < 3; ++i) w.damping[1 + i][l] = first[i];
   }
-  kernels.lagging(w);
   kernels.springs(w, set);
   return left_out;
 }

@@ -27,8 +27,7 @@ struct alignas(64) PairPackOf {
   Row along, angular_part[3];    // for `ClipKernels::closing_speeds`
   Row closing_speed;             // m/s
   Row inverse_mass, chi, limit;  // of the dashpot
-  Row lag;                       // of its force, in steps: what the blow asks for over `chi`, which the step bears
-  Row damping[4];                // total and first moment from `ClipKernels::damp`, then lagging; kn = 1
+  Row damping[4];                // total and first moment from `ClipKernels::damp`, kn = 1
   // Friction: springs with their slip, dashpots, and the part within the limit.
   Row u0[3], psi0, u1[3], psi1, kt, kr, springs[3], torsion, dashpots[3], dashpot_torsion, lever[3], held, most, radius, share;
   Row holds;  // 1: springs and dashpots are surely within the limit
@@ -71,7 +70,6 @@ struct PairKernels {
   void (*gather_pairs)(PairPack&);                  // reads the rows; sets `rotation` and `shift`
   void (*patch)(PairPack&, const PairSettings&);    // from `sums` to `angular_part`; `total` = 0 for a degenerate patch
   void (*dashpot)(PairPack&, const PairSettings&);  // starts from `closing_speed`
-  void (*lagging)(PairPack&);                       // starts from `damping`
   void (*springs)(PairPack&, const PairSettings&);  // as far as `holds`
   // Return map of two packs; sets `holds` to 0 for a pair that it leaves to the caller.
   void (*return_map)(PairPack&, PairPack&);

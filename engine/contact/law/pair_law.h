@@ -86,12 +86,10 @@ static void dashpot(PairPackFor<T>& w, const PairSettings& set) {
   T chi = impact / peak_closing_speed + 2 * share * sqrt(kn * area / nonzero(inverse_mass)) / pressing;
   const T contact_count = load<T>(w.contact_count), square = kn * area * inverse_mass * (set.dt * set.dt);
   const T bears = max(0.25, min(1 / (1 + contact_count), 0.45 * (4 / contact_count - square)));
-  const T wanted = chi;
   if (set.dt > 0) chi = min(chi, bears / (nonzero(inverse_mass) * pressing * set.dt));
   store(w.p[p_peak_closing_speed], peak_closing_speed);
   store(w.inverse_mass, inverse_mass);
   store(w.chi, select(inverse_mass > 0, chi, T(0)));
-  store(w.lag, max(wanted / nonzero(chi), 1));
   store(w.limit, select(inverse_mass > 0, 1 + max(impact, 1), T(1)));
 }
 
@@ -119,23 +117,6 @@ ERBS_INLINE void store_wrench(Lanes<T>* x, const Wrench<T>& w, MaskFor<T> swappe
   store3(x, select(swapped, -w.force, w.force));
   store3(x + 3, select(swapped, w.other, w.reference));
   store3(x + 6, select(swapped, w.reference, w.other));
-}
-
-// The dashpot that a blow asks for may be stronger than a step bears, as where a heavy block lands on a light one: then the force follows
-// it as that of a spring in series with it would, F' = (c v - F) / (lag dt); c / lag is what the step bears. To the trembling of the light
-// block it is the capped dashpot, to the slower blow of the heavy one the whole. Rocking of the faces on each other is damped by the cap
-// alone.
-template <class T>
-static void lagging(PairPackFor<T>& w) {
-  const T lag = load<T>(w.lag), size = load<T>(w.size), limit = load<T>(w.limit);
-  const MaskFor<T> lags = lag > 1;
-  if (!any(lags)) return;
-  const Wrench<T> last = load_wrench<T>(w.p + p_damping, load<T>(w.swapped) > 0);
-  const Vec3<T> n = columns<T>(w.r + b_rotation) * load3(w.normal), first = load3(w.damping + 1);
-  const T total = load<T>(w.damping[0]), before = dot(n, last.force) / nonzero(load<T>(w.p[p_kn]));
-  const T now = max(-size, min((limit - 1) * size, total + (1 - 1 / lag) * before));
-  store(w.damping[0], select(lags, now, total));
-  store3(w.damping + 1, select(lags, first + (now - total) * load3(w.pressure_centre), first));
 }
 
 // The friction springs after the return map.
