@@ -26,6 +26,10 @@ std::vector<int> resting_on_structure(const Model& model, const State& state) {
   if (!(gravity > 0) || model.njoint == 0 || std::ranges::none_of(loose, [](std::uint8_t is) { return is != 0; })) return {};
   ContactBodies bodies(model);
   bodies.initialise();
+  for (std::size_t b = 0; b < bodies.block.size(); ++b) {
+    bodies.block[b].u = state.pose.u[b];
+    bodies.block[b].rotation = Quat(state.pose.q[b]).toRotationMatrix() * bodies.axes_of(int(b));
+  }
   std::vector<int> out;
   const double margin = near * *std::ranges::max_element(model.smallest_edge);
   for (const PartPair& of : close_parts(margin, {}, bodies.shapes, bodies.block, loose, {})) {

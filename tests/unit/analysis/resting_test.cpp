@@ -37,6 +37,16 @@ TEST_CASE("a free slab on two piers is named with the remedy", "[analysis]") {
   CHECK(warnings.back().find("start = \"ramp\"") < warnings.back().size());
 }
 
+TEST_CASE("turned blocks, wedges and blocks that start elsewhere are judged where they are", "[analysis]") {
+  const std::string cap = "box{ name = 'cap', size = { .2, .2, .1 }, at = { .05, .05, .6 }, group = 'loose', free = true";
+  for (const char* turn : {"0", "30*deg", "77*deg"})
+    CHECK(named(warnings_of("transform{ at = { 4, 0, 0 }, rotation = { 0, 0, " + std::string(turn) + " }, function() " +
+                            "box{ name = 'foot', size = { .3, .3, .6 }, at = { 0, 0, 0 } } " + cap + " } end }")) == 1);
+  CHECK(named(warnings_of(cap + ", initial = { rotation = { 0, 0, .7 } } }")) == 1);
+  CHECK(named(warnings_of(cap + ", initial = { position = { 0, 0, .3 } } }")) == 0);
+  CHECK(named(warnings_of(cap + ", initial = { position = { 1, 0, 0 } } }")) == 0);
+}
+
 TEST_CASE("blocks that do not rest on the structure are not named", "[analysis]") {
   CHECK(named(warnings_of("box{ name = 'slab', size = { 2.3, .3, .2 }, at = { 0, 0, .6 } } box{ name = 'l', size = { .1, .1, .1 }, at = { "
                           "5, 0, 0 }, group = 'loose', free = true }")) == 0);  // joined
