@@ -29,6 +29,7 @@ struct ContactSettings {
   double first_fall = 0;              // m, in the first steps of a run, in which bodies have no speed yet; 0 in all others
   double event_budget = 0;            // J, energy error allowed per impact (event_bound.h); 0: no limit
   double blow_share = 1e300;          // of the kinetic energy of a blow: the same (event_bound.h)
+  double falling_mass = 0;            // kg, of all moving blocks: no blow presses deeper than that of a body with this mass
   double gravity = 0;                 // m/s2, of interlock (laws/interlock.h); 0: none
 };
 
@@ -62,6 +63,7 @@ struct alignas(64) ContactPair {
   // Offset at which contact sees the other body, pair axes. With it the contact stores as much energy as the joint did before its release
   // (`release_to_contact`).
   Vec3 lift = Vec3::Zero();                     // m
+  double lag = 0;                               // N, part of the dashpot that follows a blow with a lag (pair_law.h)
   double bound_share_a = 0, bound_share_b = 0;  // 1/s2, share of the pair in the bound of each block, at the last update
   int a = 0, b = 0;                             // blocks, a < b
   int part_a = 0, part_b = 0;                   // parts of them
@@ -137,7 +139,7 @@ void each(P& p, F&& f) {
   f("area", p.area), f("gyration", p.gyration), f("mean_normal_force", p.mean_normal_force), f("lent", p.lent),
       f("peak_closing_speed", p.peak_closing_speed), f("impact", p.impact);
   f("bound_share_a", p.bound_share_a), f("bound_share_b", p.bound_share_b);
-  f("friction", p.friction), f("damping", p.damping), f("lift", p.lift), f("tangential", p.tangential);
+  f("friction", p.friction), f("damping", p.damping), f("lift", p.lift), f("lag", p.lag), f("tangential", p.tangential);
 }
 template <class P, class F>
 requires std::is_same_v<std::remove_const_t<P>, PairList>

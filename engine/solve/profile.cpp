@@ -23,7 +23,7 @@ std::string text(StepLimit::By by) {
     case impact:
       return "a coming impact";
     case slip:
-      return "a sliding contact";
+      return "a sliding contact, or a blow on a light block";
     case event:
       return "an opening or closing";
     case passing:

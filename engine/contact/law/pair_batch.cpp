@@ -84,6 +84,7 @@ unsigned up_to_springs(const PairTask* task, int count, const PairSettings& set,
     w.damping[0][l] = total;
     for (int i = 0; i < 3; ++i) w.damping[1 + i][l] = first[i];
   }
+  kernels.lagging(w);
   kernels.springs(w, set);
   return left_out;
 }
@@ -101,6 +102,7 @@ void write_back(const PairTask* task, int count, unsigned left_out, const PairPa
   for (int l = 0; l < count; ++l) {
     if ((left_out >> l & 1u) != 0) continue;
     task[l].pair->touching = 1;
+    task[l].pair->lag = w.lag[l];
     task[l].result->touching = true;
   }
 }

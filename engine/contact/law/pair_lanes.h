@@ -27,6 +27,7 @@ struct alignas(64) PairPackOf {
   Row along, angular_part[3];    // for `ClipKernels::closing_speeds`
   Row closing_speed;             // m/s
   Row inverse_mass, chi, limit;  // of the dashpot
+  Row lag, lag_stiffness, lag_keeps, lag_takes;  // N, as in ContactPair; over kn A; shares of the last lag and of the capped dashpot
   Row damping[4];                // total and first moment from `ClipKernels::damp`, kn = 1
   // Friction: springs with their slip, dashpots, and the part within the limit.
   Row u0[3], psi0, u1[3], psi1, kt, kr, springs[3], torsion, dashpots[3], dashpot_torsion, lever[3], held, most, radius, share;
@@ -40,7 +41,7 @@ using OnePair = PairPackOf<1>;
 struct PairSettings {
   double dt, drift;  // s, since the last evaluation; of the last drift, by half of which velocities lag behind poses
   double booked;     // 1: the work of the last wrenches after their kick is booked already, else 0
-  double memory, reference_speed, settling, settling_tangential;  // as in ContactSettings
+  double falling_mass, lag_from, memory, reference_speed, settling, settling_tangential;  // as in ContactSettings
   InterlockStep interlock;
   double flat_face, slender;  // `pair.h`
 };
@@ -70,6 +71,7 @@ struct PairKernels {
   void (*gather_pairs)(PairPack&);                  // reads the rows; sets `rotation` and `shift`
   void (*patch)(PairPack&, const PairSettings&);    // from `sums` to `angular_part`; `total` = 0 for a degenerate patch
   void (*dashpot)(PairPack&, const PairSettings&);  // starts from `closing_speed`
+  void (*lagging)(PairPack&);                       // starts from `damping`
   void (*springs)(PairPack&, const PairSettings&);  // as far as `holds`
   // Return map of two packs; sets `holds` to 0 for a pair that it leaves to the caller.
   void (*return_map)(PairPack&, PairPack&);

@@ -41,6 +41,8 @@ ContactForces::ContactForces(const Model& model, State& state, const ContactBodi
       room_(z(threads)) {
   settings_.blow_share = blow_share(model);
   settings_.gravity = model.gravity.norm();
+  for (int b = 0; b < model.nblock; ++b)
+    if (model.kind[z(b)] == Kind::moving) settings_.falling_mass += model.mass[z(b)];
   first_pair_.back() = first_fast_.back() = std::numeric_limits<int>::max();
 }
 

@@ -174,7 +174,7 @@ void Contacts::sort() {
   OverlapRoom room;
   sleep_.sort(involved_, [&](int i) {
     ContactPair& pair = state_.contacts.list.pair[z(i)];
-    pair.damping = PairWrench{};
+    pair.damping = PairWrench{}, pair.lag = 0;
     ContactPair copy = pair;
     PairResult r;
     pair_force(copy, bodies_.shapes, bodies_.block[z(pair.a)], bodies_.block[z(pair.b)], forces_.settings(), 0.0, true, room, r);

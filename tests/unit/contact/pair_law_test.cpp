@@ -61,6 +61,7 @@ void random_pair(Draw& draw, const ContactBlock& reference, const ContactBlock& 
   pair.u = draw.vec(2 * reach), pair.psi = draw(20 * reach);
   pair.peak_closing_speed = draw.one_in(3) ? 0 : draw.positive(2);
   pair.tangential = draw.positive(1e-3);
+  pair.lag = draw.one_in(2) ? 0 : draw(1e4 * area);
   pair.mean_normal_force = draw.one_in(3) ? 0 : draw.positive(2e6 * area);
   pair.lent = draw.one_in(3) ? 0 : draw.positive(1e-4 * pair.mean_normal_force);
   for (PairWrench* w : {&pair.friction, &pair.damping}) *w = {draw.vec(100), draw.vec(10), draw.vec(10)};
@@ -94,6 +95,7 @@ template <class T>
 void until_friction(scalar::PairPackFor<T>& w, const PairSettings& settings) {
   scalar::patch<T>(w, settings);
   scalar::dashpot<T>(w, settings);
+  scalar::lagging<T>(w);
   scalar::springs<T>(w, settings);
 }
 
@@ -103,11 +105,11 @@ TEST_CASE("a number and a pack obey one law of a pair, to the last bit", "[conta
   Draw draw;
   const auto pack = std::make_unique<PairPack>(), other = std::make_unique<PairPack>();
   const auto alone = std::make_unique<OnePair[]>(8);
-  int sure = 0, sticking = 0, slipping = 0, braking = 0, points = 0;
+  int sure = 0, sticking = 0, slipping = 0, braking = 0, lagging = 0, points = 0;
   for (int trial = 0; trial < 2000; ++trial) {
     ContactPair pair[8];
     ContactBlock block[8][2];
-    const PairSettings settings = pair_settings({.gravity = 9.81}, trial % 10 == 0 ? 0 : 1e-5);
+    const PairSettings settings = pair_settings({.falling_mass = 100, .gravity = 9.81}, trial % 10 == 0 ? 0 : 1e-5);
     *pack = {}, *other = {};
     for (int l = 0; l < 8; ++l) {
       OnePair& one = alone[std::size_t(l)];
@@ -135,6 +137,7 @@ TEST_CASE("a number and a pack obey one law of a pair, to the last bit", "[conta
       if (!(one.holds[0] > 0)) return_point(one), return_point(*pack, l), ++points;
       scalar::finish<double>(one, settings);
       slipping += one.slips[0] > 0, sticking += !(one.slips[0] > 0), braking += one.share[0] > 0 && one.share[0] < 1;
+      lagging += one.lag_stiffness[0] > 0;
     }
     scalar::finish<scalar::Pack>(*pack, settings);
     for (int l = 0; l < 8; ++l) {
@@ -146,11 +149,12 @@ TEST_CASE("a number and a pack obey one law of a pair, to the last bit", "[conta
       CHECK(different(*pack, one, l, pack->max_depth, one.max_depth, after) == 0);
     }
   }
-  INFO("sure " << sure << " sticking " << sticking << " slipping " << slipping << " braking " << braking << " points " << points);
+  INFO("sure " << sure << " sticking " << sticking << " slipping " << slipping << " braking " << braking << " lagging " << lagging << " points " << points);
   CHECK(sure > 500);
   CHECK(sticking > 2000);
   CHECK(slipping > 2000);
   CHECK(braking > 100);
+  CHECK(lagging > 100);
   CHECK(points > 500);
 }
 
