@@ -50,12 +50,19 @@ SeparatingFeature separating_feature(int separating_axis, const PairFrame& s) {
   return {SeparatingFeature::edges, (at - faces) / edges, (at - faces) % edges};
 }
 
-// Approach of two bodies, along the normal of the separating face if there is one. A body that flies off strikes nothing.
+// Approach of two bodies, along the normal of the separating face if there is one. A body that flies off strikes nothing, and nor do
+// neighbours that turn together: what counts is the motion of one body as seen from the other.
 struct Approach {
   SeparatingFeature::Kind by = SeparatingFeature::edges;
   Vec3 n = Vec3::Zero();  // unit, from the reference to the other; zero: unknown
   double apart = 0, along = 0;
 };
+
+// m/s, of the centroid of the other body as seen from a body that has the spin `w` (rad/s) of one of the two.
+Vec3 speed_seen(const PairFrame& s, const Vec3& w) {
+  const ContactBlock &r = *s.reference_block, &o = *s.other_block;
+  return (o.v - r.v) - w.cross((o.rest - r.rest) + (o.u - r.u));
+}
 
 // Least and greatest n . x over the corners of a body.
 struct Extent {
@@ -77,7 +84,7 @@ Approach approach(int separating_axis, const PairFrame& s) {
   const ContactShape &reference = *s.reference, &other = *s.other;
   const ContactBlock &r = *s.reference_block, &o = *s.other_block;
   const SeparatingFeature by = separating_feature(separating_axis, s);
-  const Vec3 between = (o.rest - r.rest) + (o.u - r.u), v = o.v - r.v;
+  const Vec3 between = (o.rest - r.rest) + (o.u - r.u), v = speed_seen(s, by.kind == SeparatingFeature::other_face ? o.w : r.w);
   const bool measured = corners_known(s);
   Approach way{by.kind, Vec3::Zero(), 0, v.norm()};
   if (by.kind == SeparatingFeature::face) {
@@ -121,6 +128,34 @@ double pressed_share(const SmallShape& body, const Vec3& n, double depth, double
   return pressed_share(low, depth, corner_travel);
 }
 
+// m, length over which two bodies overlap as seen along the unit vector `t` (world); negative: apart by that much.
+double overlap_along(const PairFrame& s, const Vec3& t) {
+  const ContactBlock &r = *s.reference_block, &o = *s.other_block;
+  const double between = t.dot((o.rest - r.rest) + (o.u - r.u));
+  const Extent one = extent(s.reference->small, r.rotation.transpose() * t), two = extent(s.other->small, o.rotation.transpose() * t);
+  return std::min(one.most, two.most + between) - std::max(one.least, two.least + between);
+}
+
+// Share of the smaller face that can press along n (unit, world): what one body covers of the other as seen along n, of neighbours across
+// the crossing of two joints next to nothing. `travel` (m): motion along the face until then.
+double covered_share(const PairFrame& s, const Vec3& n, double travel) {
+  constexpr double along_face = 0.7;  // least sine between n and the edges asked for
+  if (!corners_known(s)) return 1;
+  double covered = std::min(s.reference->largest_face, s.other->largest_face);
+  const auto look = [&](const ContactShape& shape, const Mat3& rotation) {
+    for (const Vec3& axis : shape.normal) {
+      const Vec3 m = rotation * axis, t = m - m.dot(n) * n;
+      const double size = t.norm();
+      if (size < along_face) continue;
+      const double width = overlap_along(s, t / size) + travel, length = overlap_along(s, n.cross(t) / size) + travel;
+      covered = std::min(covered, std::max(0.0, width) * std::max(0.0, length));
+    }
+  };
+  look(*s.reference, s.reference_block->rotation);
+  look(*s.other, s.other_block->rotation);
+  return covered / std::min(s.reference->largest_face, s.other->largest_face);
+}
+
 // True if bodies that are about to touch may gain an energy that matters: at a speed at which it does, or at any speed if the step dt is
 // beyond what the face bears, since it then multiplies the speed by (omega dt)^2.
 bool gains(const ContactPair& pair, const PairFrame& s, const ContactSettings& settings, double speed, double dt) {
@@ -136,7 +171,8 @@ bool gains(const ContactPair& pair, const PairFrame& s, const ContactSettings& s
 void impact_bound(const ContactPair& pair, const PairFrame& s, const ContactSettings& settings, const Approach& way, double dt,
                   PairResult& result) {
   const ContactBlock &r = *s.reference_block, &o = *s.other_block;
-  const double spin = o.w.norm() * s.other->reach + r.w.norm() * s.reference->reach, speed = way.along + spin;
+  const double arm = way.by == SeparatingFeature::other_face ? s.reference->reach : s.other->reach;
+  const double spin = (o.w - r.w).norm() * arm, speed = way.along + spin;
   const double k = pair.law.kn * std::min(s.reference->largest_face, s.other->largest_face);
   result.event_rate = event_rate(k, speed, way.apart, s, settings);
   const double depth = std::max(look_ahead * speed * dt, settings.first_fall);
@@ -148,6 +184,8 @@ void impact_bound(const ContactPair& pair, const PairFrame& s, const ContactSett
       share *= pressed_share(s.other->small, o.rotation.transpose() * way.n, depth, corner_travel);
     if (way.by != SeparatingFeature::face)
       share *= pressed_share(s.reference->small, -(r.rotation.transpose() * way.n), depth, corner_travel);
+    const double travel = depth + look_ahead * dt * (speed_seen(s, r.w).norm() + spin);
+    share = std::min(share, covered_share(s, way.n, travel));
     result.event_rate = event_rate(share * k, speed, way.apart, s, settings);
   }
   if (soon) face_impact_omega2(pair, s, share, result);
@@ -158,7 +196,7 @@ void impact_bound(const ContactPair& pair, const PairFrame& s, const ContactSett
 void impact_bound(const ContactPair& pair, const PairFrame& s, const ContactSettings& settings, double apart, double dt,
                   PairResult& result) {
   Approach way = pair.separating_axis < 0 ? Approach{} : approach(pair.separating_axis, s);
-  if (pair.separating_axis < 0) way.along = (s.other_block->v - s.reference_block->v).norm();
+  if (pair.separating_axis < 0) way.along = speed_seen(s, s.reference_block->w).norm();
   way.apart = apart;
   impact_bound(pair, s, settings, way, dt, result);
 }
@@ -209,8 +247,11 @@ std::span<const int> corners_of_face(const ContactShape& shape, std::size_t face
 
 // Events and impacts of the corners that come down on the plane. With each the face presses with more: the last one lands it flat, one of
 // two may land an edge.
-void foresee_landing(const CornersOverPlane& one, const PairFrame& s, const ContactSettings& settings, double face, double dt,
-                     PairResult& result, double& soon) {
+struct Landing {
+  double event_rate = 0, soon = 0;  // 1/s; share of a face that lands within the next steps
+};
+Landing foresee_landing(const CornersOverPlane& one, const PairFrame& s, const ContactSettings& settings, double face, double dt) {
+  Landing landing;
   const ContactBlock &c = one.block, &p = one.of_plane;
   const Vec3 apart = (c.rest - p.rest) + (c.u - p.u), v = c.v - p.v;
   double height[most_vertices], rate[most_vertices];  // m, m/s
@@ -226,9 +267,10 @@ void foresee_landing(const CornersOverPlane& one, const PairFrame& s, const Cont
     double low[3] = {1e300, 1e300, 1e300};  // m, of the corners above the plane by then
     for (std::size_t j = 0; j < count; ++j) lower(j == i ? 0 : std::max(0.0, height[j] + rate[j] * time), low);
     const double share = pressed_share(low, look_ahead * speed * dt, 0);
-    result.event_rate = std::max(result.event_rate, event_rate(0.5 * share * face, speed, height[i], s, settings));
-    if (speed > settings.reference_speed && time <= look_ahead * dt) soon = std::max(soon, share);
+    landing.event_rate = std::max(landing.event_rate, event_rate(0.5 * share * face, speed, height[i], s, settings));
+    if (speed > settings.reference_speed && time <= look_ahead * dt) landing.soon = std::max(landing.soon, share);
   }
+  return landing;
 }
 
 }  // namespace
@@ -243,8 +285,18 @@ void foresee(const ContactPair& pair, const PairFrame& s, const ContactSettings&
   const bool of_other = s.other->reach <= s.reference->reach;  // corners of the smaller body
   const bool each_corner = std::isfinite(settings.blow_share);
   const double near = 0.01 * thin + (each_corner ? result.depth : 0);  // m
-  double soon = 0;                                                     // share of a face that lands within the next steps
+  double soon = 0;                                                     // `Landing`
   bool flat = false;                                                   // nearly
+  const auto lands = [&](const Vec3& along, const auto& landing) {
+    Landing now = landing(face);
+    if (now.event_rate * dt > 0.5 || now.soon > soon) {  // few: only now does it matter how much of the face is covered
+      const double travel = result.depth + look_ahead * dt * (speed_seen(s, r.w).norm() + w.norm() * s.other->reach);
+      const double covered = covered_share(s, along, travel);
+      now = {landing(covered * face).event_rate, std::min(now.soon, covered)};
+    }
+    result.event_rate = std::max(result.event_rate, now.event_rate);
+    soon = std::max(soon, now.soon);
+  };
   const Opposite opposite(s, apart, near);
   for (std::size_t f = 0; f < s.reference->normal.size(); ++f) {
     const Vec3 nf = r.rotation * s.reference->normal[f];
@@ -260,22 +312,23 @@ void foresee(const ContactPair& pair, const PairFrame& s, const ContactSettings&
       if (std::abs(nf.dot(apart + corner) - s.reference->offset[f]) > 2 * sine * s.other->reach + near) continue;
       flat = true;
       if (each_corner) {
-        foresee_landing(of_other ? CornersOverPlane{*s.other, o, r, corners_of_face(*s.other, g), nf, s.reference->offset[f]}
-                                 : CornersOverPlane{*s.reference, r, o, corners_of_face(*s.reference, f), ng, s.other->offset[g]},
-                        s, settings, face, dt, result, soon);
+        const CornersOverPlane corners =
+            of_other ? CornersOverPlane{*s.other, o, r, corners_of_face(*s.other, g), nf, s.reference->offset[f]}
+                     : CornersOverPlane{*s.reference, r, o, corners_of_face(*s.reference, f), ng, s.other->offset[g]};
+        lands(nf, [&](double k) { return foresee_landing(corners, s, settings, k, dt); });
         continue;
       }
       const double rate = closes / sine, time = sine / rate;
-      result.event_rate = std::max(result.event_rate, event_rate(0.5 * face, rate * lever, sine * lever, s, settings));
-      if (rate * lever > settings.reference_speed && time <= look_ahead * dt) soon = 1;
+      const bool is_near = rate * lever > settings.reference_speed && time <= look_ahead * dt;
+      lands(nf, [&](double k) { return Landing{event_rate(0.5 * k, rate * lever, sine * lever, s, settings), is_near ? 1.0 : 0.0}; });
     }
   }
   // An edge may still land on the plane of the contact.
   if (constexpr int all[few] = {0, 1, 2, 3, 4, 5, 6, 7}; each_corner && !flat && corners_known(s)) {
     const auto corners = [&](const ContactShape& shape) { return std::span(all).first(shape.vertex.size()); };
-    foresee_landing(of_other ? CornersOverPlane{*s.other, o, r, corners(*s.other), n, n.dot(at)}
-                             : CornersOverPlane{*s.reference, r, o, corners(*s.reference), -n, n.dot(apart - at)},
-                    s, settings, face, dt, result, soon);
+    const CornersOverPlane over = of_other ? CornersOverPlane{*s.other, o, r, corners(*s.other), n, n.dot(at)}
+                                           : CornersOverPlane{*s.reference, r, o, corners(*s.reference), -n, n.dot(apart - at)};
+    lands(n, [&](double k) { return foresee_landing(over, s, settings, k, dt); });
   }
   if (soon > 0) face_impact_omega2(pair, s, soon, result);
 }
