@@ -39,7 +39,8 @@ void clip(const SmallShape& a, const SmallShape& b, const SmallPose& pose, Trian
 }  // namespace
 
 const ClipKernels clip_kernels{ERBS_TARGET_NAME, clip, clip_all, sum, closing_speeds, damp};
-const PairKernels pair_kernels{track, gather_pairs<Pack>, patch<Pack>, dashpot<Pack>, lagging<Pack>, springs<Pack>, return_map<Pack>, finish<Pack>,
-                               write, close_balls,        close_boxes};
+const PairKernels pair_kernels{track,         gather_pairs<Pack>, patch<Pack>,      dashpot<Pack>,
+                               lagging<Pack>, springs<Pack>,      return_map<Pack>, finish<Pack>,
+                               write,         close_balls,        close_boxes};
 
 }  // namespace erbs::ERBS_TARGET

@@ -148,7 +148,8 @@ ERBS_INLINE void store_wrench(Lanes<T>* x, const Wrench<T>& w, MaskFor<T> swappe
 template <class T>
 static void lagging(PairPackFor<T>& w) {
   const T last = load<T>(w.lag), size = load<T>(w.size), limit = load<T>(w.limit), total = load<T>(w.damping[0]), kn = load<T>(w.p[p_kn]);
-  const MaskFor<T> lags = (load<T>(w.lag_stiffness) > 0) | (last != 0);
+  const MaskFor<T> lags = load<T>(w.lag_stiffness) > 0;
+  store(w.lag, T(0));  // never -0: the bits of a pair must not depend on its neighbours in the pack
   if (!any(lags)) return;
   const auto bounded = [&](T x) { return max(-size, min((limit - 1) * size, x)); };
   const T lag = bounded(load<T>(w.lag_keeps) * last / nonzero(kn) + load<T>(w.lag_takes) * total), now = bounded(total + lag);
