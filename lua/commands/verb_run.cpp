@@ -190,7 +190,7 @@ void draw_performance_point(const Scene& scene, const std::string& directory, co
   const std::optional<Capacity>& capacity = outcome.metrics.capacity;
   if (!capacity || !capacity->performance) return;
   try {
-    draw_performance(directory, *capacity->performance, scene.performance.spectrum, scene.name);
+    draw_performance(run_file(directory, "performance.svg"), *capacity->performance, scene.performance.spectrum, scene.name);
   } catch (const Error& error) { tell(stderr, fmt::format("warning: performance.svg could not be drawn: {}", error.what())); }
 }
 

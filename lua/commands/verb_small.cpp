@@ -11,6 +11,7 @@
 #include "engine/record/performance/performance_folder.h"
 #include "lua/program/child.h"
 #include "lua/program/options.h"
+#include "lua/program/output_path.h"
 #include "lua/program/say.h"
 
 namespace erbs::lua {
@@ -26,31 +27,34 @@ int verb_version() {
   return exit_ok;
 }
 
-// Without keys: that of the last spectrum.
+// Without keys: that of the scene's own spectrum. Of another one in files of their own, since those of the run belong to its metrics.
 int verb_capacity(const CapacityCommand& command) {
   const std::string& dir = command.words.front();
   if (!is_run_folder(dir)) throw Error(fmt::format("{} is no run folder; name the one of a pushover", shown(dir, 200)));
   if (command.words.size() == 1) {
-    const std::string last = run_file(dir, "performance.json");
-    if (!std::filesystem::is_regular_file(last))
-      throw Error("no spectrum has been applied to this run; add one: 'kind = \"EN 1998-1 type 1\", ground = \"B\", ag = 0.2*g'", {dir});
-    say("{}\n", performance_text(read_json(last)));
+    if (!std::filesystem::is_regular_file(own_performance(dir)))
+      throw Error("this run has no performance point of its own; give a spectrum: 'kind = \"EN 1998-1 type 1\", ground = \"B\", ag = 0.2*g'", {dir});
+    say("{}\n", performance_text(read_json(own_performance(dir))));
     return exit_ok;
   }
   Script script;
   const PerformanceDemand demand = script.load_spectrum(command.words[1], "spectrum");
+  const std::string path =
+      output_path(command.output, performance_of_spectrum(dir, demand.spectrum), "the file of a performance point", {".json"});
+  const std::string picture = std::filesystem::path(path).replace_extension(".svg").string();
   const FolderLock lock(dir);
   Performance performance;
   try {
-    performance = evaluate_performance(dir, demand);
+    performance = evaluate_performance(dir, demand, path);
   } catch (const Error& mistake) {
     if (!mistake.place.file.empty()) throw;
     throw Error(mistake.what(), {dir});
   }
-  if (!command.quiet) say("{}\n", performance_text(to_json(performance)));
-  if (!command.figures) return exit_ok;
-  if (can_start("gnuplot")) draw_performance(dir, performance, demand.spectrum, std::filesystem::canonical(dir).filename().string());
-  else tell(stderr, "warning: performance.svg needs gnuplot, which is not there; install the package gnuplot-nox");
+  const bool drawn = command.figures && can_start("gnuplot");
+  if (drawn) draw_performance(picture, performance, demand.spectrum, std::filesystem::canonical(dir).filename().string());
+  else if (command.figures) tell(stderr, "warning: the picture needs gnuplot, which is not there; install the package gnuplot-nox");
+  if (!command.output.quiet)
+    say("{}\nresults in {}{}\n", performance_text(to_json(performance)), shown(path, 400), drawn ? " and " + shown(picture, 400) : "");
   return exit_ok;
 }
 

@@ -161,8 +161,12 @@ void add_capacity(CLI::App& app, CapacityCommand& command) {
       ->required()
       ->expected(1, 2);
   capacity.add_flag_callback(
-      "--no-figures", [&command] { command.figures = false; }, "do not draw performance.svg");
-  capacity.add_flag("-q,--quiet", command.quiet, "print warnings and errors only");
+      "--no-figures", [&command] { command.figures = false; }, "do not draw the performance point");
+  capacity.add_option("-o", command.output.directory, "the results for another spectrum, JSON (default DIR/performance_<spectrum>.json)")
+      ->check(filled())
+      ->type_name("FILE");
+  capacity.add_flag("--force", command.output.force, "replace earlier results for that spectrum");
+  capacity.add_flag("-q,--quiet", command.output.quiet, "print warnings and errors only");
 }
 
 void add_others(CLI::App& app, CommandLine& line) {

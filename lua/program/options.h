@@ -157,7 +157,8 @@ struct LimitCommand {
 };
 struct CapacityCommand {
   std::vector<std::string> words;  // run folder, and keys of spectrum{} as in a scene
-  bool figures = true, quiet = false;
+  OutputOptions output;            // directory: the JSON file
+  bool figures = true;
 };
 struct BenchCommand {
   std::vector<std::string> words;

@@ -34,7 +34,7 @@ std::optional<Performance> assess_pushover(const std::string& dir, const Perform
   write_shape(dir, shape);
   if (!demand.given()) return std::nullopt;
   try {
-    return evaluate_performance(dir, demand);
+    return evaluate_performance(dir, demand, own_performance(dir));
   } catch (const Error& error) {
     Performance none;
     none.spectrum = spectrum_name(demand.spectrum);

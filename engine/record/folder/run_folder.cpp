@@ -23,6 +23,7 @@ constexpr std::string_view own_files[] = {"scene.lua",     "manifest.json",  "me
                                           "modes.csv",     "studies",        "figures",           "plot.svg",        "plot.png",
                                           "pictures",      "curve.csv",      "curve.svg",         "shape.csv",       "twin",
                                           "twin.log",      "checkpoint.bin", "expectations.json", "performance.svg", "performance.json"};
+constexpr std::string_view performances = "performance_";  // performance_tbsc_2018.json and .svg, of erbs capacity
 constexpr std::string_view own_endings[] = {".tmp", ".part"};
 constexpr std::string_view films[] = {".mp4", ".webp"};                          // SCENE_camera.mp4
 constexpr std::string_view comparisons[] = {"compare.", "compare_", "frames."};  // beginnings of the names in compare/
@@ -31,6 +32,7 @@ bool ends_in(const std::string& name, std::string_view ending) { return name.siz
 
 bool is_own(const std::string& name, const std::string& scene) {
   return std::ranges::count(own_files, name) > 0 || std::ranges::any_of(own_endings, [&](auto e) { return ends_in(name, e); }) ||
+         (name.starts_with(performances) && (name.ends_with(".json") || name.ends_with(".svg"))) ||
          (name.starts_with(scene + "_") && std::ranges::any_of(films, [&](auto e) { return ends_in(name, e); }));
 }
 

@@ -135,8 +135,8 @@ plot::Figure performance_figure(const Performance& p, const DesignSpectrum& spec
   return figure;
 }
 
-void draw_performance(const std::string& dir, const Performance& p, const DesignSpectrum& spectrum, const std::string& title) {
-  if (p.trouble.empty()) plot::draw(performance_figure(p, spectrum, title), dir + "/performance.svg");
+void draw_performance(const std::string& path, const Performance& p, const DesignSpectrum& spectrum, const std::string& title) {
+  if (p.trouble.empty()) plot::draw(performance_figure(p, spectrum, title), path);
 }
 
 }  // namespace erbs

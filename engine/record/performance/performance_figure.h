@@ -6,7 +6,7 @@
 namespace erbs {
 
 plot::Figure performance_figure(const Performance& performance, const DesignSpectrum& spectrum, const std::string& title);
-// DIR/performance.svg, with gnuplot; nothing without a performance point.
-void draw_performance(const std::string& dir, const Performance& performance, const DesignSpectrum& spectrum, const std::string& title);
+// The picture `path`, with gnuplot; nothing without a performance point.
+void draw_performance(const std::string& path, const Performance& performance, const DesignSpectrum& spectrum, const std::string& title);
 
 }  // namespace erbs

@@ -1,6 +1,7 @@
 #include "engine/record/performance/performance_folder.h"
 
 #include <algorithm>
+#include <cctype>
 #include <filesystem>
 
 #include "engine/base/error.h"
@@ -64,12 +65,26 @@ BaseShearCurve read_base_shear_curve(const std::string& dir) {
   return curve;
 }
 
-Performance evaluate_performance(const std::string& dir, const PerformanceDemand& demand) {
+std::string own_performance(const std::string& dir) { return dir + "/performance.json"; }
+
+std::string performance_of_spectrum(const std::string& dir, const DesignSpectrum& spectrum) {
+  std::string name = "performance";
+  bool between = true;
+  for (const char c : spectrum_name(spectrum)) {
+    const bool kept = std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '.';
+    if (kept && between) name += '_';
+    if (kept) name += char(std::tolower(static_cast<unsigned char>(c)));
+    between = !kept;
+  }
+  return dir + "/" + name + ".json";
+}
+
+Performance evaluate_performance(const std::string& dir, const PerformanceDemand& demand, const std::string& path) {
   const BaseShearCurve curve = read_base_shear_curve(dir);
   const Performance p = performance_of(curve, read_shape(dir), demand);
   Json json = to_json(p);
   json["oscillator"] = {{"displacement_m", p.D}, {"n2_acceleration_m_s2", p.n2.A}, {"mpp_acceleration_m_s2", p.mpp.A}};
-  write_json(dir + "/performance.json", json);
+  write_json(path, json);
   return p;
 }
 

@@ -50,19 +50,27 @@ TEST_CASE("a pushover with a spectrum has its performance point", "[capacity][pr
   for (const char* file : {"shape.csv", "performance.json", "performance.svg"}) CHECK(fs::exists(bench.out() + "/" + file));
   CHECK(contains(text_of(bench.out() + "/performance.svg"), "T* = 0.39"));
 
-  // Another spectrum, without another push: the metrics of the run stay.
-  const std::string before = text_of(bench.out() + "/metrics.json");
+  // Another spectrum, without another push: what the run has written stays.
+  const std::string before = text_of(bench.out() + "/metrics.json"), own = text_of(bench.out() + "/performance.json");
   REQUIRE(bench.erbs({"capacity", bench.out(), "kind = 'TBSC 2018', SDS = 0.2, SD1 = 0.1"}) == 0);
   CHECK(contains(bench.said, "TBSC 2018, SDS = 0.2, SD1 = 0.1"));
   const double soft = 0.2 * standard_g * std::pow(period / (2 * pi), 2);  // q = 2/3
-  CHECK(number(read_json(bench.out() + "/performance.json"), "n2.target_m") == Approx(soft).epsilon(5e-3));
+  const std::string other = bench.out() + "/performance_tbsc_2018_sds_0.2_sd1_0.1";
+  CHECK(contains(bench.said, "results in " + other + ".json and " + other + ".svg"));
+  CHECK(number(read_json(other + ".json"), "n2.target_m") == Approx(soft).epsilon(5e-3));
+  CHECK(contains(text_of(other + ".svg"), "T* = 0.39"));
   CHECK(text_of(bench.out() + "/metrics.json") == before);
+  CHECK(text_of(bench.out() + "/performance.json") == own);
   REQUIRE(bench.erbs({"capacity", bench.out()}) == 0);
-  CHECK(contains(bench.said, "TBSC 2018"));
+  CHECK(contains(bench.said, "EN 1998-1 type 1"));
   REQUIRE(bench.erbs({"capacity", bench.out(), "table = { { T = 0, Sa = 9*g }, { T = 3, Sa = 9*g } }, TC = 0.3", "--no-figures"}) == 0);
   CHECK(contains(bench.said, "the demand exceeds the capacity"));
-  REQUIRE(bench.erbs({"capacity", bench.out(), "kind = 'TBSC 2018', SDS = 0.2, SD1 = 0.1", "-q"}) == 0);
+  CHECK(bench.erbs({"capacity", bench.out(), "kind = 'TBSC 2018', SDS = 0.2, SD1 = 0.1"}) == 2);
+  CHECK(contains(bench.said, "exists already; --force"));
+  const std::string named = (bench.folder / "named.json").string();
+  REQUIRE(bench.erbs({"capacity", bench.out(), "kind = 'TBSC 2018', SDS = 0.2, SD1 = 0.1", "-q", "-o", named, "--no-figures"}) == 0);
   CHECK(bench.said.empty());
+  CHECK(text_of(named) == text_of(other + ".json"));
 
   // The push to that displacement ends there.
   REQUIRE(bench.erbs({"run", bench.scene(push), "-o", bench.out() + "/there", "--push-to", fmt::format("{}", target), "--no-figures"}) ==
@@ -143,7 +151,7 @@ TEST_CASE("erbs capacity refuses what it cannot evaluate", "[capacity][program][
   CHECK(contains(bench.said, "kind = \"pushover\""));
   REQUIRE(bench.run(load, {"--no-figures", "--force"}) == 0);
   CHECK(bench.erbs({"capacity", bench.out()}) == 2);
-  CHECK(contains(bench.said, "no spectrum has been applied"));
+  CHECK(contains(bench.said, "this run has no performance point of its own"));
   CHECK(bench.erbs({"capacity", bench.out(), keys + ", TD = 2"}) == 2);
   CHECK(contains(bench.said, "TD belongs to kind"));
   CHECK(bench.erbs({"capacity", bench.out(), "kind = 'TBSC 2018' SDS"}) == 2);
