@@ -217,9 +217,11 @@ std::string performance_text(const Json& p) {
   for (const auto& [key, name] : {std::pair{"n2", "N2 (EN 1998-1 annex B)"}, {"mpp", "mass-proportional pushover"}}) {
     const Json& v = p[key];
     const auto number = [&](const char* what) { return v[what].get<double>(); };
-    text += fmt::format("\n  {}: {}; top {:.4g} mm (oscillator {:.4g} mm; T* {:.3g} s, q {:.3g}, yields at {:.3g} g and {:.3g} mm)", name,
-                        v.value("verdict", ""), 1e3 * number("top_displacement_m"), 1e3 * number("target_m"), number("period_s"),
-                        number("q"), number("yield_acceleration_m_s2") / standard_g, 1e3 * number("yield_displacement_m"));
+    text += fmt::format(
+        "\n  {}: {}; monitored point at {:.4g} mm (top {:.4g} mm, oscillator {:.4g} mm; T* {:.3g} s, q {:.3g}, yields at {:.3g} g and "
+        "{:.3g} mm)",
+        name, v.value("verdict", ""), 1e3 * number("displacement_m"), 1e3 * number("top_displacement_m"), 1e3 * number("target_m"),
+        number("period_s"), number("q"), number("yield_acceleration_m_s2") / standard_g, 1e3 * number("yield_displacement_m"));
     if (v["time_s"].is_number())
       text += fmt::format("\n    there: multiplier {:.4g}, t = {:.4g} s of the run folder; nearest state {:.4g} mm at t = {:.4g} s",
                           number("multiplier"), number("time_s"), 1e3 * number("nearest_displacement_m"), number("nearest_time_s"));

@@ -89,7 +89,7 @@ std::vector<std::pair<std::string, std::string>> push_answers(const Json& metric
   add("displacement of the monitored point there", "capacity.displacement_m", 1000, " mm");
   add("base shear there", "capacity.base_shear_N", 1e-3, " kN");
   add("base shear over weight", "capacity.base_shear_over_weight", 100, " %");
-  add("performance point (N2), displacement", "capacity.performance.n2.displacement_m", 1000, " mm");
+  add("performance point (N2), displacement of the monitored point", "capacity.performance.n2.displacement_m", 1000, " mm");
   if (const Json* course = find_key(metrics, "capacity.mechanism_text");
       course && course->is_string() && !course->get<std::string>().empty())
     answers.emplace_back("mechanism", course->get<std::string>());

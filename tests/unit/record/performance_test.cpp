@@ -199,6 +199,8 @@ TEST_CASE("two masses: both variants by hand", "[performance]") {
     CHECK(point->oscillator.target == Approx(spectral_displacement(en_b(1), T)));
     CHECK(point->displacement == Approx(4.0 / 3 * point->oscillator.target));
   }
+  // The terminal leads with the displacement that erbs report and `--push-to` name.
+  CHECK(performance_text(to_json(p)).find(fmt::format("monitored point at {:.4g} mm (top", 1e3 * p.n2.displacement)) != std::string::npos);
   CHECK(to_json(p)["n2"]["yield_force_N"].get<double>() == Approx(4500));
   CHECK(to_json(p)["mpp"]["yield_force_N"].get<double>() == Approx(6000));
 }
