@@ -32,8 +32,11 @@ int verb_capacity(const CapacityCommand& command) {
   const std::string& dir = command.words.front();
   if (!is_run_folder(dir)) throw Error(fmt::format("{} is no run folder; name the one of a pushover", shown(dir, 200)));
   if (command.words.size() == 1) {
+    read_base_shear_curve(dir);  // that a run is no pushover is the first mistake to name
     if (!std::filesystem::is_regular_file(own_performance(dir)))
-      throw Error("this run has no performance point of its own; give a spectrum: 'kind = \"EN 1998-1 type 1\", ground = \"B\", ag = 0.2*g'", {dir});
+      throw Error(
+          "this run has no performance point of its own; give a spectrum: 'kind = \"EN 1998-1 type 1\", ground = \"B\", ag = 0.2*g'",
+          {dir});
     say("{}\n", performance_text(read_json(own_performance(dir))));
     return exit_ok;
   }

@@ -13,11 +13,16 @@ namespace {
 const std::vector<std::string> shape_columns{"block", "group", "mass_kg", "height_m", "elastic_displacement_m", "peak_displacement_m"};
 
 CsvTable read_file(const std::string& dir, const std::string& name) {
-  const std::string path = dir + "/" + name;
-  if (!std::filesystem::is_regular_file(path))
+  const auto there = [&](const char* file) { return std::filesystem::is_regular_file(dir + "/" + file); };
+  if (!there("curve.csv"))
+    throw Error(
+        "a capacity curve belongs to a push, and this run is a time history; run its scene with analysis{ kind = \"pushover\" }, which "
+        "takes no duration and constant loads only",
+        {dir});
+  if (!there(name.c_str()))
     throw Error(fmt::format("there is no {} of a pushover; name the folder of a finished run with analysis{{ kind = \"pushover\" }}", name),
                 {dir});
-  return read_csv(path);
+  return read_csv(dir + "/" + name);
 }
 
 }  // namespace

@@ -147,8 +147,10 @@ TEST_CASE("erbs capacity refuses what it cannot evaluate", "[capacity][program][
   CHECK(bench.erbs({"capacity", bench.out(), keys}) == 2);
   CHECK(contains(bench.said, "is no run folder"));
   REQUIRE(bench.run(block + "analysis { duration = 0.01 }", {"--no-figures"}) == 0);
-  CHECK(bench.erbs({"capacity", bench.out(), keys}) == 2);
-  CHECK(contains(bench.said, "kind = \"pushover\""));
+  for (const auto& words : {std::vector<std::string>{"capacity", bench.out()}, {"capacity", bench.out(), keys}}) {
+    CHECK(bench.erbs(words) == 2);
+    CHECK(contains(bench.said, "this run is a time history; run its scene with analysis{ kind = \"pushover\" }"));
+  }
   REQUIRE(bench.run(load, {"--no-figures", "--force"}) == 0);
   CHECK(bench.erbs({"capacity", bench.out()}) == 2);
   CHECK(contains(bench.said, "this run has no performance point of its own"));
