@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 
+#include "engine/analysis/load_warnings.h"
 #include "engine/analysis/resting.h"
 #include "engine/base/random.h"
 #include "engine/base/units.h"
@@ -137,23 +138,6 @@ void hold_use_limit(const Scene& scene, const Prepared& p) {
           use.place);
 }
 
-// A run that a record has ended before, or that begins after it, tells nothing about the structure.
-void warn_of_still_ground(const Scene& scene, Prepared& p) {
-  constexpr double every = 1e-3;  // s
-  for (const Load& load : scene.loads) {
-    if (load.kind != Load::Kind::ground) continue;
-    const double duration = scene.analysis.duration;
-    bool moves = false;
-    const int samples = int(std::min(duration / every, 1e6)) + 100;
-    for (int i = 0; i <= samples && !moves; ++i) moves = value(load.wave, duration * i / samples) != 0;
-    if (!moves)
-      p.warnings.push_back(
-          fmt::format("{}: this ground_motion is zero from 0 to {:g} s: does its record end before the run begins, or is a "
-                      "peak or amplitude 0?",
-                      load.place.text(), duration));
-  }
-}
-
 bool starts_loaded(const Model& m) { return m.gravity.norm() > 0 || !m.force_loads.empty(); }
 
 // Refuses initial poses that the equilibrium of joined blocks would undo.
@@ -210,7 +194,8 @@ Prepared prepare(const Scene& scene, bool allow_unstable) {
   check_shapes(scene, p.model);
   find_islands(p.model, p.state);
   refuse_lost_poses(scene, p);
-  if (!scene.push.quasi_static()) warn_of_still_ground(scene, p);
+  if (!scene.push.quasi_static())
+    for (std::string& warning : warnings_of_loads(scene, p.model)) p.warnings.push_back(std::move(warning));
   update_all_references(p.model, p.state);
   p.bounds = step_bounds(p.model, p.state);
   p.range.critical = p.bounds.cracked;

@@ -161,3 +161,25 @@ TEST_CASE("a ground that stays still is told", "[analysis]") {
   CHECK(told("sine{ amplitude = 1, frequency = 2, start = 3 }"));
   CHECK_FALSE(told("sine{ amplitude = 1, frequency = 1000 }"));
 }
+
+TEST_CASE("loads that begin after the run, and supports that jump, are told", "[analysis]") {
+  const auto told = [](const std::string& load, const std::string& part) {
+    return mentions(prepare(test::small_wall("analysis{duration=1} " + load), false).warnings, part);
+  };
+  const std::string support = test::small_wall("").blocks.front().name, top = test::small_wall("").blocks.back().name;
+  const auto force = [&](const std::string& wave) { return "force{ block = '" + top + "', direction = 'x', wave = " + wave + " }"; };
+  const auto motion = [&](const std::string& wave) { return "motion{ block = '" + support + "', direction = 'x', wave = " + wave + " }"; };
+  const std::string late = "begins at 3 s, and the run ends at 1 s";
+  CHECK(told(force("sine{ amplitude = 9, frequency = 2, start = 3 }"), late));
+  CHECK(told(force("table_wave{ times = { 0, 3, 4 }, values = { 0, 0, 9 } }"), late));
+  CHECK(told(motion("pulse{ amplitude = 0.01, start = 3, duration = 1 }"), late));
+  CHECK_FALSE(told(force("sine{ amplitude = 9, frequency = 2, start = 0.9 }"), "begins"));
+  CHECK_FALSE(told(force("sine{ amplitude = 0, frequency = 2, start = 3 }"), "begins"));
+
+  CHECK(told(motion("sine{ amplitude = 0.01, frequency = 2, phase = pi / 2 }"), "it jumps to 0.01 m at 0 s"));
+  CHECK(told(motion("pulse{ amplitude = 0.01, start = 0.5, duration = 9 }"), "it jumps to 0.01 m at 0.5 s"));
+  CHECK(told(motion("sine{ amplitude = 0.01, frequency = 2 }"), "starts at once with 0.126 m/s at 0 s"));
+  CHECK(told(motion("function(t) return 0.02 * t end"), "starts at once with 0.02 m/s at 0 s"));
+  CHECK_FALSE(told(motion("function(t) return 0.02 * t ^ 2 end"), "motion"));
+  CHECK_FALSE(told(motion("curve_wave{ times = { 0, 1 }, values = { 0, 0.02 }, hold = true }"), "motion"));
+}

@@ -1,0 +1,109 @@
+#include "engine/analysis/load_warnings.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace erbs::analysis {
+namespace {
+
+constexpr double instant = 1e-6;  // s
+// Of a support, m/s. Mortar of 1800 kg/m3 in which waves travel at 1000 m/s feels 18 kPa, a fifth of a usual tensile strength.
+constexpr double sudden_speed = 0.01;
+
+// s: the start of a wave, of one through points the last of these before it acts.
+double begin_of(const Wave& wave) {
+  return std::visit(
+      [](const auto& w) {
+        if constexpr (requires { w.start; }) return w.start;
+        else {
+          const Polyline& line = w.line;
+          const auto first = std::find_if(line.values.begin(), line.values.end(), [](double value) { return value != 0; });
+          const auto i = std::size_t(first - line.values.begin());
+          return i < line.times.size() ? line.times[i > 0 ? i - 1 : 0] : line.times.front();
+        }
+      },
+      wave);
+}
+
+bool acts_between(const Wave& wave, double from, double to) {
+  constexpr double every = 1e-3;  // s
+  const int samples = int(std::min((to - from) / every, 1e6)) + 100;
+  for (int i = 0; i <= samples; ++i)
+    if (value(wave, from + (to - from) * i / samples) != 0) return true;
+  return false;
+}
+
+std::string name_of(const Load& load) {
+  using Kind = Load::Kind;
+  const char* name = load.kind == Kind::tilt     ? "tilt"
+                     : load.kind == Kind::force  ? "force"
+                     : load.kind == Kind::moment ? "moment"
+                     : load.kind == Kind::motion ? "motion"
+                                                 : "turning";
+  return load.block.empty() ? name : fmt::format("{} of block \"{}\"", name, load.block);
+}
+
+// A run that a record has ended before, or that begins after it, tells nothing about the structure.
+std::string idle(const Load& load, double duration) {
+  if (load.kind == Load::Kind::ground)
+    return acts_between(load.wave, 0, duration)
+               ? ""
+               : fmt::format(
+                     "this ground_motion is zero from 0 to {:g} s: does its record end before the run begins, or is a peak or "
+                     "amplitude 0?",
+                     duration);
+  const double begin = begin_of(load.wave);
+  const bool within = begin < duration || value(load.wave, 0) != 0;  // a held value acts before its wave begins
+  if (within || !acts_between(load.wave, begin, begin + std::min(1e3 * resolution(load.wave), 1e3))) return "";
+  return fmt::format("{}: it begins at {:g} s, and the run ends at {:g} s, so that it does nothing; begin it earlier, or run longer",
+                     name_of(load), begin, duration);
+}
+
+// A displacement or a speed that is there at once, where the wave begins or the run does. `joined`: the block bears others, so that a speed
+// is a blow to them.
+std::string blow(const Load& load, double duration, bool joined) {
+  const bool turns = load.kind == Load::Kind::turning;
+  const double begin = value(load.wave, 0) != 0 ? 0 : std::max(0.0, begin_of(load.wave));
+  if (!(begin < duration)) return "";
+  const auto x = [&](double t) { return t < 0 ? 0 : value(load.wave, t); };  // blocks start where the scene has them
+  const double jump = x(begin) - x(begin - instant), speed = (x(begin + 2 * instant) - x(begin + instant)) / instant,
+               before = (x(begin - instant) - x(begin - 2 * instant)) / instant;
+  const char* remedy = "begin it smoothly, as a curve_wave from 0 with hold = true does";
+  if (std::fabs(jump) > 1e-6)  // m or rad
+    return fmt::format("{}: it jumps to {:.4g} {} at {:g} s, within one step; {}", name_of(load), jump, turns ? "rad" : "m", begin, remedy);
+  if (joined && std::fabs(speed - before) > sudden_speed)
+    return fmt::format("{}: it starts at once with {:.3g} {} at {:g} s, a blow to what the block bears; {}", name_of(load), speed - before,
+                       turns ? "rad/s" : "m/s", begin, remedy);
+  return "";
+}
+
+}  // namespace
+
+std::vector<std::string> warnings_of_loads(const Scene& scene, const Model& model) {
+  std::vector<bool> joined(scene.blocks.size(), false);
+  for (const Joint& joint : model.joint) joined[std::size_t(joint.a)] = joined[std::size_t(joint.b)] = true;
+  struct Doubt {
+    const Load* load;
+    std::string text;
+    int others;  // loads of the same line, such as the supports of a row
+  };
+  std::vector<Doubt> doubts;
+  for (const Load& load : scene.loads) {
+    std::string text = idle(load, scene.analysis.duration);
+    if (text.empty() && (load.kind == Load::Kind::motion || load.kind == Load::Kind::turning)) {
+      const auto block = std::find_if(scene.blocks.begin(), scene.blocks.end(), [&](const Block& b) { return b.name == load.block; });
+      text = blow(load, scene.analysis.duration, joined[std::size_t(block - scene.blocks.begin())]);
+    }
+    if (text.empty()) continue;
+    const auto same = std::find_if(doubts.begin(), doubts.end(), [&](const Doubt& d) { return d.load->place.text() == load.place.text(); });
+    if (same != doubts.end()) ++same->others;
+    else doubts.push_back({&load, std::move(text), 0});
+  }
+  std::vector<std::string> warnings;
+  for (const Doubt& d : doubts)
+    warnings.push_back(
+        fmt::format("{}: {}{}", d.load->place.text(), d.text, d.others > 0 ? fmt::format(" (and {} more of this line)", d.others) : ""));
+  return warnings;
+}
+
+}  // namespace erbs::analysis
