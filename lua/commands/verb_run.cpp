@@ -268,6 +268,8 @@ int verb_run(const RunCommand& wish) {
   for (const auto& effect : command.changes.without) switch_off(scene, effect);
   std::vector<std::string> notes = script.output();
   notes.insert(notes.end(), scene.notes.begin(), scene.notes.end());
+  for (const auto& note : scene.notes)
+    if (note.starts_with("warning: ")) tell(stderr, note);
   for (const auto& note : apply_overrides(scene, command)) notes.push_back(note);
   if (!command.changes.settings.empty() || command.changes.push_to > 0)  // they pass the same checks as the scene
     if (const auto mistakes = check(scene); !mistakes.empty()) throw Errors(mistakes);

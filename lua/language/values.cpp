@@ -1,4 +1,5 @@
 // Law and wave values. A script holds a handle: an index into the lists of the context.
+#include <algorithm>
 #include <cmath>
 #include <lua5.4/lua.hpp>
 
@@ -80,6 +81,39 @@ std::optional<Wave> Arguments::wave(const std::string& key, double duration, dou
   return make_table(std::move(samples.times), std::move(samples.values), true);
 }
 
+namespace {
+
+// Between its samples a function is taken as a line. One that turns there acts as another wave: it is lost or aliased.
+void check_between(lua_State* lua, Context& context, int function, const Samples& s, const Place& place) {
+  constexpr double most_looks = 1000, off = 0.05;  // intervals that are looked into; deviation, of the range of the values
+  const double steps = double(s.times.size() - 1), looks = std::min(steps, most_looks), sample = s.times[1] - s.times[0];
+  auto [low, high] = std::ranges::minmax(s.values);
+  double worst = 0, when = 0;
+  std::vector<double> errors;
+  for (double k = 0; k < looks; ++k) {
+    const auto i = static_cast<size_t>(steps * k / looks);
+    constexpr double within = 0.618;  // of the interval: the middle may be a zero of what the samples miss
+    const double t = s.times[i] + within * sample;
+    lua_rawgeti(lua, LUA_REGISTRYINDEX, function);
+    lua_pushnumber(lua, t);
+    call_script(lua, context, 1, 1);
+    const double wanted = lua_tonumber(lua, -1);
+    lua_pop(lua, 1);
+    low = std::min(low, wanted), high = std::max(high, wanted);
+    errors.push_back(std::fabs(wanted - (1 - within) * s.values[i] - within * s.values[i + 1]));
+    if (errors.back() > worst) worst = errors.back(), when = t;
+  }
+  // A jump is in one interval; a wave that is sampled too coarsely differs in many.
+  const auto wrong = std::ranges::count_if(errors, [&](double e) { return e > off * (high - low) + 1e-12 * std::max(high, -low); });
+  if (double(wrong) < std::max(std::min(3.0, looks), looks / 50)) return;
+  context.scene.notes.push_back(
+      fmt::format("warning: {}: between its samples, {:g} s apart, the function of this wave departs from the line through them by up to "
+                  "{:.2g} % of its range, as at {:.6g} s: the run takes another wave; take a smaller step, such as sample = {:.2g}",
+                  place.text(), sample, 100 * worst / (high - low), when, sample / 10));
+}
+
+}  // namespace
+
 Samples sampled(lua_State* lua, Context& context, int function, double duration, double sample, const Place& place) {
   const double steps = std::max(1.0, std::ceil(duration / sample));
   if (steps > 20e6) throw Error(fmt::format("a wave sampled {:g} times is too long; raise sample", steps), place);
@@ -97,7 +131,9 @@ Samples sampled(lua_State* lua, Context& context, int function, double duration,
     values[i] = lua_tonumber(lua, -1);
     lua_pop(lua, 1);
   }
-  return {std::move(times), std::move(values)};
+  Samples samples{std::move(times), std::move(values)};
+  check_between(lua, context, function, samples, place);
+  return samples;
 }
 
 int Arguments::function(const std::string& key) {

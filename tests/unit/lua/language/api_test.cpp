@@ -171,6 +171,19 @@ TEST_CASE("a wrong number among the points of a wave is one mistake, not two", "
   CHECK(mentions(mistakes_in("tilt{ axis = 'y', wave = curve_wave{ times = {0, 1, 2}, values = {0, 1} } }"), "3 times but 2 values"));
 }
 
+TEST_CASE("a function that is sampled too coarsely is told", "[lua]") {
+  const auto notes = [](const std::string& wave) { return scene_of("force{ block = 'b', direction = 'z', wave = " + wave + " }").notes; };
+  const std::string sine = "function(t) return sin(2 * pi * 20 * t) end";
+  const auto told = notes(sine + ", sample = .05");  // one sample a period: nothing is left of it
+  REQUIRE(told.size() == 1);
+  CHECK(mentions(told, "warning: scene.lua:6: between its samples, 0.05 s apart"));
+  CHECK(mentions(told, "sample = 0.005"));
+  CHECK(notes(sine + ", sample = .01").size() == 1);
+  CHECK(notes(sine).empty());
+  CHECK(notes("function(t) return t < .5 and 1 or 0 end").empty());
+  CHECK(notes("function(t) return 3 end, sample = .5").empty());
+}
+
 TEST_CASE("a smooth curve that swings beyond its values is told", "[lua]") {
   const auto notes = [](const char* points) {
     return scene_of(std::string("tilt{ axis = 'y', wave = curve_wave{ ") + points + " } }").notes;
