@@ -279,6 +279,9 @@ int verb_run(const RunCommand& wish) {
   }
   if (scene.push.quasi_static() && command.until)
     throw Error("--until is a time, and a push has none; say analysis{ up_to = ... }, or leave it out", scene.push.place);
+  if (scene.push.quasi_static() && command.twin)
+    throw Error("--twin finds the time at which two runs part, and a push has none; leave it out, or take kind = \"dynamic\"",
+                scene.push.place);
   const std::string directory = no_option(command.output.directory.empty() ? "runs/" + scene.name : command.output.directory);
   catch_interrupts();
   try {

@@ -295,6 +295,7 @@ TEST_CASE("options out of range are refused before anything is written", "[bad_i
   const std::pair<std::vector<std::string>, std::string> of_push[] = {
       {{"--from", "1"}, "--from is a time, and a push has none"},
       {{"--until", "1"}, "--until is a time, and a push has none"},
+      {{"--twin"}, "--twin finds the time at which two runs part, and a push has none"},
       {{"--set", "bracket=2"}, "must be a number from 1e-06 to 0.5"},
       {{"--set", "step=5"}, "step = 5 is beyond up_to = 0.02"},
       {{"--set", "patern=3"}, "did you mean \"pattern\"?"},
