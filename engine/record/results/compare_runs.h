@@ -76,6 +76,8 @@ struct RunComparison {
   std::vector<ColumnErrors> columns;
   CollapseErrors collapse;
 };
+// The two have the motion of the ground in common, and no column of the response.
+bool only_ground(const RunComparison& comparison);
 Json json_of(const RunComparison& comparison);
 std::string table_of(const RunComparison& comparison);
 std::string words_of(Alignment how);

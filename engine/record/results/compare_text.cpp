@@ -1,4 +1,5 @@
 // The comparison as a table and as JSON.
+#include <algorithm>
 #include <cmath>
 
 #include "engine/base/error.h"
@@ -38,6 +39,10 @@ std::string scenes_text(const SceneDifferences& scenes) {
 
 }  // namespace
 
+bool only_ground(const RunComparison& c) {
+  return !c.columns.empty() && std::ranges::all_of(c.columns, [](const ColumnErrors& e) { return e.name.starts_with("ground_a"); });
+}
+
 std::string words_of(Alignment how) {
   return how == Alignment::none ? "none" : how == Alignment::first_motion ? "first-motion" : "correlation";
 }
@@ -55,6 +60,8 @@ std::string table_of(const RunComparison& c) {
     text +=
         fmt::format("{:<28} {:>11.4g} {:>11.4g} {:>10} {:>10} {:>10} {:>9.4f} {:>8.4f} {:>18}\n", e.name, e.peak_run, e.peak_reference,
                     percent(e.peak_error), percent(e.rms_error), percent(e.difference), e.lag, e.correlation, percent(e.frequency_error));
+  if (only_ground(c))
+    text += "note        only the motion of the ground is compared; record the response under the same names, or use --columns\n";
   return c.collapse.known ? text + collapse_text(c.collapse) : text;
 }
 

@@ -18,6 +18,10 @@ std::string without_spaces(std::string text) {
 
 template <double ColumnErrors::*member>
 std::vector<double> of_columns(const RunComparison& c) {
+  if (only_ground(c))
+    throw Error(
+        "--expect: the two have only the motion of the ground in common, which is given and proves nothing; record the response in both "
+        "under the same names, or pair their columns by --columns RUN=REFERENCE");
   std::vector<double> values;
   for (const ColumnErrors& e : c.columns) values.push_back(e.*member);
   return values;

@@ -65,6 +65,20 @@ TEST_CASE("a reference without a time or a common column is refused", "[compare]
   CHECK_THROWS_WITH(pair_columns(run, back, {}, "r.csv"), Catch::Contains("r.csv:7") && Catch::Contains("falls back"));
 }
 
+TEST_CASE("a ground motion in common passes no limit on the response", "[compare]") {
+  RunComparison comparison;
+  comparison.columns.push_back({.name = "ground_ay_m_s2", .peak_error = 0, .correlation = 1});
+  const auto judged = [&](const char* limit) {
+    return judge(limits_of(limit), [&](const std::string& quantity) { return values_of(comparison, quantity); });
+  };
+  for (const char* limit : {"peak<5%", "correlation>0.9"})
+    CHECK_THROWS_WITH(judged(limit), Catch::Contains("only the motion of the ground in common") && Catch::Contains("--columns"));
+  CHECK(judged("shift<1").front().passed);
+  CHECK(table_of(comparison).find("only the motion of the ground is compared") != std::string::npos);
+  comparison.columns.push_back({.name = "top_uy_rel_m", .peak_error = 0.01, .correlation = 1});
+  CHECK(judged("peak<5%").front().passed);
+}
+
 TEST_CASE("collapse is compared by time, direction and sequence", "[compare]") {
   const auto fall = [](double time, double x, double y, std::vector<std::string> groups) {
     Json sequence = Json::array();
