@@ -19,6 +19,7 @@ constexpr const char *steps = "steps", *points = "contact_points", *memory = "pe
 
 struct Measured {
   std::string effect, because, trouble;
+  bool inaccurate = false;
   double cpu = 0;     // s, of the whole child process
   double memory = 0;  // bytes, peak
   double steps = 0, points = 0;
@@ -29,7 +30,8 @@ struct Measured {
 Measured measured_of(const SettingRow& row, const std::string& effect, const std::string& because) {
   Measured m;
   m.effect = effect, m.because = because, m.cpu = row.cpu;
-  if (!row.answered()) m.trouble = row.status == "error" ? row.reason : row.status + ": " + row.reason;
+  m.inaccurate = row.status == "inaccurate";
+  if (!row.answered() && !m.inaccurate) m.trouble = row.status == "error" ? row.reason : row.status + ": " + row.reason;
   const auto at = [&](const char* key) { return row.values.contains(key) ? row.values.at(key) : 0; };
   m.steps = at(steps), m.points = at(points), m.memory = at(memory), m.collapsed = at(collapsed) != 0;
   for (const auto& [key, value] : row.values)
@@ -37,8 +39,8 @@ Measured measured_of(const SettingRow& row, const std::string& effect, const std
   return m;
 }
 
-// The scene as it is, then without each of its effects. One run at a time unless the user wants more, so that runs do not compete for
-// processor and memory.
+// The scene as it is, without each of its effects, and as it is once more, which shows how much times scatter. One run at a time unless the
+// user wants more, so that runs do not compete for processor and memory.
 SettingRuns runs_of(const Script& script, const std::vector<Effect>& effects, const std::string& path, const std::string& directory,
                     const EffectsCommand& command) {
   SettingRuns runs;
@@ -55,6 +57,7 @@ SettingRuns runs_of(const Script& script, const std::vector<Effect>& effects, co
     how.arguments.insert(how.arguments.end(), common.begin(), common.end());
     runs.settings.emplace_back("without " + effect.name, std::move(how));
   }
+  runs.settings.push_back({"all again", {path, common}});
   return runs;
 }
 
@@ -85,17 +88,18 @@ void print_row(const Row& r) {
     say("{:<26} without it: {}\n", r.without.effect, r.without.trouble);
     return;
   }
-  say("{:<26} {:9.4f} {:7.1f} {:7.1f} {:9.1f}  {:>10.3g}  {:<28} {}\n", r.without.effect, r.ns, r.percent, r.steps, r.bytes, r.moved.second,
-      r.moved.first, r.without.because);
+  say("{:<26} {:9.4f} {:7.1f} {:7.1f} {:9.1f}  {:>10.3g}  {:<28} {}{}\n", r.without.effect, r.ns, r.percent, r.steps, r.bytes,
+      100 * r.moved.second, r.moved.first, r.without.because, r.without.inaccurate ? "  (inaccurate without it)" : "");
   std::fflush(stdout);
 }
 
 void write_table(const std::vector<Row>& rows, const std::string& path) {
-  CsvWriter table(
-      path, {"effect", "called_for_by", "ns_per_point_step", "percent", "steps_percent", "bytes_per_point", "moves", "metric", "reason"});
+  CsvWriter table(path, {"effect", "called_for_by", "ns_per_point_step", "percent", "steps_percent", "bytes_per_point", "moves_percent",
+                         "metric", "reason"});
   for (const Row& r : rows)
     table.text_row({r.without.effect, r.without.because, fmt::format("{}", r.ns), fmt::format("{}", r.percent), fmt::format("{}", r.steps),
-                    fmt::format("{}", r.bytes), fmt::format("{}", r.moved.second), r.moved.first, r.without.trouble});
+                    fmt::format("{}", r.bytes), fmt::format("{}", 100 * r.moved.second), r.moved.first,
+                    r.without.inaccurate ? "inaccurate" : r.without.trouble});
   table.flush();
 }
 
@@ -122,6 +126,19 @@ void draw(const std::vector<Row>& rows, const std::string& scene, const std::str
   plot::draw(figure, path);
 }
 
+// What two equal runs differ by in the cost of a step, and which rows of the table that leaves in doubt.
+void print_noise(const std::vector<Row>& rows, const Measured& all, const Measured& again) {
+  if (!again.trouble.empty()) return;
+  constexpr double least = 2;  // %, even of two runs that agree by chance
+  const double noise = std::max(least, 100 * std::fabs(again.cpu - all.cpu) / all.cpu);
+  const auto within =
+      std::ranges::count_if(rows, [&](const Row& r) { return r.without.trouble.empty() && std::fabs(r.percent) < 2 * noise; });
+  say("\nmoves: change of the metric that changes most, in % of its larger value\n"
+      "two equal runs of {:.2g} s differ by {:.1f} % in their time, so that costs below {:.0f} % are noise: {} of {} effects{}\n",
+      all.cpu, 100 * std::fabs(again.cpu - all.cpu) / all.cpu, 2 * noise, within, rows.size(),
+      within > 0 && all.cpu < 10 ? "; a longer run tells them apart" : "");
+}
+
 }  // namespace
 
 int verb_effects(const EffectsCommand& command) {
@@ -136,10 +153,13 @@ int verb_effects(const EffectsCommand& command) {
   const std::vector<SettingRow> made = run_settings(runs_of(script, effects, path, directory, command));
   const Measured all = measured_of(made.front(), "", "");
   if (!all.trouble.empty()) throw Error(path + ": " + all.trouble);
+  if (all.inaccurate)
+    tell(stderr, fmt::format("warning: {}: the run of the whole scene is inaccurate: {}; its changes are not to be relied on", path,
+                             made.front().reason));
   const double updates = std::max(1.0, all.points) * all.steps;
   say("{}: {:.3g} s of one core, {:g} steps, {:g} points: {:.4f} ns per point and step, {:.1f} bytes per point\n\n", scene.name, all.cpu,
       all.steps, all.points, 1e9 * all.cpu / updates, all.memory / std::max(1.0, all.points));
-  say("{:<26} {:>9} {:>7} {:>7} {:>9}  {:>10}  {:<28} {}\n", "effect", "ns/point", "%", "steps %", "B/point", "moves", "metric",
+  say("{:<26} {:>9} {:>7} {:>7} {:>9}  {:>10}  {:<28} {}\n", "effect", "ns/point", "%", "steps %", "B/point", "moves %", "metric",
       "called for by");
   std::vector<Row> rows;
   for (std::size_t i = 0; i < effects.size(); ++i) {
@@ -156,6 +176,7 @@ int verb_effects(const EffectsCommand& command) {
     print_row(row);
     rows.push_back(std::move(row));
   }
+  print_noise(rows, all, measured_of(made.back(), "", ""));
   write_table(rows, directory + "/effects.csv");
   std::erase_if(rows, [](const Row& row) { return !row.without.trouble.empty(); });
   draw(rows, scene.name, directory + "/effects.svg");

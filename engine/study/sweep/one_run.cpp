@@ -124,7 +124,8 @@ RunRow read_run(const Sweep& sweep, const Point& point, double x, const std::str
       if (verdict_of(*sweep.plan.bisect, metrics, none) == "1") row.verdict = "1";
     }
     if (row.status != "completed") row.reason = last_words(log, finished.code, scene);
-    if (row.status != "completed" && row.verdict != "1") return row;
+    const bool shown = row.status == "inaccurate" && !sweep.variants.empty();  // settings are compared by what they gave
+    if (row.status != "completed" && row.verdict != "1" && !shown) return row;
     std::string absent;
     for (std::size_t k = 0; k < row.values.size(); ++k) {
       const std::string& key = sweep.plan.collect[k];

@@ -135,7 +135,7 @@ SettingRuns runs_of(std::vector<Asked>& all, const std::string& directory, const
 
 std::optional<double> value_at(const SettingRow& row, const std::string& key) {
   const auto found = row.values.find(key);
-  return found == row.values.end() ? std::nullopt : std::optional(found->second);
+  return found == row.values.end() || !row.answered() ? std::nullopt : std::optional(found->second);
 }
 
 study::Measured measured_of(const SettingRow& row, const study::Setting& setting, const Asked& asked) {

@@ -26,13 +26,26 @@ TEST_CASE("effects runs a scene without each of its effects, and keeps what is d
   INFO(bench.said);
   const CsvTable table = read_csv(bench.out() + "/effects.csv");
   REQUIRE(table.rows() >= 2);
-  CHECK(read_csv(bench.out() + "/results.csv").rows() == table.rows() + 1);
+  CHECK(read_csv(bench.out() + "/results.csv").rows() == table.rows() + 2);  // with the scene as it is, twice
+  CHECK(contains(bench.said, "moves %"));
+  CHECK(contains(bench.said, "two equal runs of"));
   CHECK(std::filesystem::file_size(bench.folder / "out/effects.svg") > 500);
   CHECK(bench.erbs({"effects", scene, "-o", bench.out()}) == 2);
   CHECK(contains(bench.said, "--resume"));
   const std::string before = text_of(bench.folder / "out/effects.csv");
   REQUIRE(bench.erbs({"effects", scene, "-o", bench.out(), "--resume"}) == 0);
   CHECK(text_of(bench.folder / "out/effects.csv") == before);  // no run was made again
+}
+
+TEST_CASE("effects of an inaccurate run are shown with a warning", "[program]") {
+  Bench bench;
+  CHECK(bench.erbs({"effects", bench.scene(pier(", energy_gate = 1e-30")), "-o", bench.out(), "-j", "2"}) == 0);
+  INFO(bench.said);
+  CHECK(contains(bench.said, "the run of the whole scene is inaccurate"));
+  const CsvTable table = read_csv(bench.out() + "/effects.csv");
+  REQUIRE(table.find("moves_percent") >= 0);
+  CHECK(table.text[std::size_t(table.find("reason"))].front() == "inaccurate");
+  CHECK(std::isfinite(table.column("percent").front()));
 }
 
 TEST_CASE("a run of effects that fails is a row with its reason, and the scene itself must run", "[program]") {
