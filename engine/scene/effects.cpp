@@ -1,5 +1,7 @@
 #include "engine/scene/effects.h"
 
+#include "engine/base/spelling.h"
+
 namespace erbs {
 namespace {
 
@@ -92,7 +94,10 @@ const Switch switches[] = {
     {"moments on blocks", [](Scene& s) { drop(s, Load::Kind::moment); }},
     {"tilting gravity", [](Scene& s) { drop(s, Load::Kind::tilt); }},
     {"prescribed motion", [](Scene& s) { drop(s, Load::Kind::motion); }},
+    {"prescribed turning", [](Scene& s) { drop(s, Load::Kind::turning); }},
     {"mass damping", [](Scene& s) { s.damping.mass = 0; }},
+    {"dashpots of joints", [](Scene& s) { s.damping.stiffness = s.damping.joint_ratio = s.damping.at = 0; }},
+    {"sequential sweep", [](Scene& s) { s.analysis.solver = "leapfrog"; }},
     {"rotation of joint frames", [](Scene& s) { s.analysis.lazy_rotation = 1e9; }},  // small rotations about the start only
     {"debris contact", [](Scene& s) { s.analysis.debris = false; }},
     {"contact dashpots",
@@ -112,7 +117,13 @@ void switch_off(Scene& scene, const std::string& name) {
   for (const Switch& item : switches)
     if (name == item.name) return item.off(scene);
   if (switch_off_in_laws(scene, name)) return;
-  throw Error("there is no effect \"" + name + "\"; erbs check lists those of a scene");
+  std::vector<std::string> names;
+  for (const Effect& effect : effects_of(scene)) names.push_back(effect.name);
+  std::string near = nearest(name, names);
+  for (const std::string& one : names)
+    if (near.empty() && !name.empty() && one.find(name) != std::string::npos) near = one;
+  throw Error(fmt::format("there is no effect \"{}\"{}; give one of: {}", name,
+                          near.empty() ? "" : fmt::format("; did you mean \"{}\"?", near), fmt::join(names, ", ")));
 }
 
 const char* one_level_only(const Scene& scene) {

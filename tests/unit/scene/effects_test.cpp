@@ -86,3 +86,11 @@ TEST_CASE("contacts have levels where joints may keep the step short and the sol
     CHECK(why(scene_of(two + one), "levels of contacts").empty());
   }
 }
+
+TEST_CASE("every effect can be switched off, and another name is met with all of them", "[scene]") {
+  Scene scene = scene_of("");
+  for (const Effect& effect : effects_of(scene)) CHECK_NOTHROW(switch_off(scene, effect.name));
+  CHECK_THROWS_WITH(switch_off(scene, "debris contacts"), Catch::Contains("did you mean \"debris contact\"?"));
+  CHECK_THROWS_WITH(switch_off(scene, "dashpots"),
+                    Catch::Contains("did you mean \"dashpots of joints\"?") && Catch::Contains("give one of: ground x, ground y,"));
+}
