@@ -57,9 +57,12 @@ std::string trouble_of(const RunSoFar& r, const std::string& status) {
   const Model& model = r.run.model;
   const double tolerance = energy_tolerance(r), fraction = r.dt_at_start / r.run.bounds.critical;
   const double share = std::isfinite(fraction) && fraction > 0 ? fraction : 1;
-  if (status == "diverged")
-    return fmt::format("the run diverged at t = {:.6g} s (dt = {:.4g} s, limit {:.4g} s); results after that time are invalid; take {}",
-                       r.run.state.time.t, r.run.state.time.dt, r.run.bounds.critical, step_of(share > 1 ? 0.9 : share / 3));
+  if (status == "diverged") {
+    const double now = r.run.state.time.dt;
+    const std::string changed = std::fabs(now / r.dt_at_start - 1) < 1e-6 ? "" : fmt::format(" at the start and {:.4g} s there", now);
+    return fmt::format("the run diverged at t = {:.6g} s (dt = {:.4g} s{}, limit {:.4g} s); results after that time are invalid; take {}",
+                       r.run.state.time.t, r.dt_at_start, changed, r.run.bounds.critical, step_of(share > 1 ? 0.9 : share / 3));
+  }
   if (e.residual_worst > tolerance && !growth_allowed(r.scene)) {
     // The residual of smooth motion falls with the square of the step. Fluttering friction and chattering joints need dashpots instead.
     const double smooth = 0.8 * std::sqrt(tolerance / e.residual_worst);

@@ -1,6 +1,8 @@
 #include <catch2/catch.hpp>
 
 #include "engine/analysis/diagnostics.h"
+#include "engine/analysis/verdict.h"
+#include "tests/support/small_wall.h"
 
 using namespace erbs;
 using namespace erbs::analysis;
@@ -38,4 +40,15 @@ TEST_CASE("the line of trust names each warning with its share, and what was boo
   CHECK_THAT(line, Catch::Contains("steps with a warning: 2 % dt above its limit"));
   CHECK_THAT(line, !Catch::Contains("deepening"));
   CHECK_THAT(diagnostics_line(Metrics::Diagnostics{}), Catch::Contains("no warning in any step"));
+}
+
+TEST_CASE("a diverged run names the step that the user gave, and the one it had shrunk to", "[analysis][trust]") {
+  const Scene scene = test::small_wall("analysis{duration=1, dt=1e-5}");
+  Prepared run = prepare(scene, false);
+  const Collapse collapse;
+  const RunDiagnostics diagnostics;
+  const RunSoFar so_far{.scene = scene, .run = run, .collapse = collapse, .diagnostics = diagnostics, .dt_at_start = 1e-5};
+  CHECK_THAT(trouble_of(so_far, "diverged"), Catch::Contains("(dt = 1e-05 s, limit "));
+  run.state.time.dt = 2.5e-7;
+  CHECK_THAT(trouble_of(so_far, "diverged"), Catch::Contains("(dt = 1e-05 s at the start and 2.5e-07 s there, limit "));
 }
