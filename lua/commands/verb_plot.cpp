@@ -70,6 +70,24 @@ const CsvTable& table_of(const ReadRun& run, const std::string& x) {
   return run.capacity && !holds(run.table, x) && holds(*run.capacity, x) ? *run.capacity : run.table;
 }
 
+// A pattern that fits no column of `table` may be meant for the other table of a push.
+std::vector<int> columns_of(const ReadRun& run, const CsvTable& table, const std::string& pattern) {
+  try {
+    return choose_columns(table, pattern);
+  } catch (const Error& mistake) {
+    if (!run.capacity) throw;
+    const bool of_states = &table == &*run.capacity;
+    if (!of_states && holds(*run.capacity, pattern))
+      throw Error(
+          fmt::format("{} is a column of curve.csv, of the states of equilibrium, which have no time; draw it over another one of {}, "
+                      "such as --x displacement_m",
+                      shown(pattern, 60), fmt::join(run.capacity->names, ", ")));
+    const CsvTable& other = of_states ? run.table : *run.capacity;
+    throw Error(fmt::format("{}; {}: {}", mistake.what(), of_states ? "over time" : "of the states of equilibrium, curve.csv",
+                            fmt::join(other.names, ", ")));
+  }
+}
+
 CurveKind kind_of(const PlotCommand& command) {
   if (command.spectrum + command.response + command.envelope > 1)
     throw Error("--spectrum, --response and --envelope exclude each other; keep one");
@@ -93,7 +111,7 @@ std::string picture_of(const PlotCommand& command) {
 // Adds the curves of the columns that each pattern fits, each column once.
 void add_curves(const ReadRun& run, const PlotCommand& command, CurveKind kind, std::vector<HistoryCurve>& curves) {
   const CsvTable& table = table_of(run, command.x);
-  const std::vector<int> x = choose_columns(table, command.x);
+  const std::vector<int> x = columns_of(run, table, command.x);
   if (x.size() > 1) {
     std::vector<std::string> names;
     for (const int c : x) names.push_back(table.names[std::size_t(c)]);
@@ -102,7 +120,7 @@ void add_curves(const ReadRun& run, const PlotCommand& command, CurveKind kind, 
   const TimeSpan span = command.time.empty() ? TimeSpan{} : time_span_of(command.time);
   std::vector<int> chosen;
   for (const std::string& pattern : command.y)
-    for (const int c : choose_columns(table, pattern))
+    for (const int c : columns_of(run, table, pattern))
       if (std::find(chosen.begin(), chosen.end(), c) == chosen.end()) chosen.push_back(c);
   for (const int c : chosen) {
     HistoryCurve curve = curve_of(table, x.front(), c, span);

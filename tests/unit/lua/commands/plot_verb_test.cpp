@@ -174,3 +174,17 @@ TEST_CASE("a histogram of joint stresses is drawn from the frames of a run", "[p
   refused({"plot", kept, "--histogram", "normal_stress", "--force", "--time", "0:1"}, "one time");
   refused({"plot", kept, "--histogram", "normal_stress", "--y", "x"}, "draws no columns");
 }
+
+TEST_CASE("a column that a push lacks is met with those of its curve", "[plot][program]") {
+  Bench bench;
+  const std::string push = run_folder(bench, "push");
+  bench.write("push/curve.csv", "multiplier_g,displacement_m,base_shear_N\n0,0,0\n0.1,0.001,100\n0.2,0.003,200\n");
+  CHECK(bench.erbs({"plot", push, "--y", "base_shear_N"}) == 2);
+  CHECK(contains(bench.said, "base_shear_N is a column of curve.csv"));
+  CHECK(contains(bench.said, "multiplier_g, displacement_m, base_shear_N, such as --x displacement_m"));
+  CHECK(bench.erbs({"plot", push, "--y", "load"}) == 2);
+  CHECK(contains(bench.said, "there is no column \"load\""));
+  CHECK(contains(bench.said, "curve.csv: multiplier_g, displacement_m, base_shear_N"));
+  CHECK(bench.erbs({"plot", push, "--x", "displacement_m", "--y", "top_ux_m"}) == 2);
+  CHECK(contains(bench.said, "over time: time_s, top_ux_m"));
+}
