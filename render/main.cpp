@@ -265,7 +265,7 @@ int main(int argc, char** argv) {
       "--thrust", a.movie.marks.thrust,
       "the line of thrust, as wide as the force: between the two joints of a voussoir, branching in a wall (of a scene with frame_stress)");
   app.add_option("--mechanism", a.movie.marks.mechanism,
-                 "arrows of velocities and rotations: motion, of this run, or the mechanism.csv of erbs limit SCENE -o FOLDER");
+                 "arrows of velocities and rotations: motion, of this run, or the FOLDER of erbs limit SCENE -o FOLDER");
   app.add_flag("--dust", a.movie.dust, "clouds of dust where blocks hit something: an illustration, not computed");
   app.add_flag("--svg", a.movie.svg,
                "line drawings in place of pictures, at the times of --stills: outlines and cracks, with --forces .. too");

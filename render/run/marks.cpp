@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <map>
 
 #include "engine/base/error.h"
@@ -236,7 +237,15 @@ Rates rates_between(const MotionFrame& before, const MotionFrame& after) {
   return rates;
 }
 
-Rates rates_of_mechanism(const std::string& path, const MotionScene& scene) {
+Rates rates_of_mechanism(const std::string& given, const MotionScene& scene) {
+  namespace fs = std::filesystem;
+  const std::string path = fs::is_directory(given) ? (fs::path(given) / "mechanism.csv").string() : given;
+  if (!fs::exists(path))
+    throw Error(
+        "there is no such file; erbs limit SCENE.lua -o FOLDER writes FOLDER/mechanism.csv, and --mechanism motion shows the motion of "
+        "this "
+        "run",
+        {path});
   const CsvTable table = read_csv(path);
   const int name = table.find("block");
   std::array<int, 6> columns{};

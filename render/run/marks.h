@@ -37,8 +37,9 @@ struct Rates {
 };
 // Between two frames of a run; zero where they are one.
 Rates rates_between(const MotionFrame& before, const MotionFrame& after);
-// From the mechanism.csv of erbs limit; blocks that it does not name stay. Error for a foreign file, or for one of another scene.
-Rates rates_of_mechanism(const std::string& path, const MotionScene& scene);
+// From the mechanism.csv of erbs limit, or from its folder; blocks that it does not name stay. Error for a foreign file, or for one of
+// another scene.
+Rates rates_of_mechanism(const std::string& given, const MotionScene& scene);
 
 // Values that have the greatest width, and the length of the longest arrow; common to all frames of a film.
 struct MarkScale {

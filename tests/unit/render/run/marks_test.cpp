@@ -140,11 +140,14 @@ TEST_CASE("velocities and spins of a mechanism come from two frames, or from a l
   const test::Folder dir;
   std::ofstream(dir.file("mechanism.csv")) << "block,x_m,y_m,z_m,vx_m_s,vy_m_s,vz_m_s,wx_rad_s,wy_rad_s,wz_rad_s\n"
                                            << scene.blocks[b].name << ",0,0,0,1,2,3,4,5,6\n";
-  const Rates read = rates_of_mechanism(dir.file("mechanism.csv"), scene);
+  const Rates read = rates_of_mechanism(dir.path.string(), scene);  // the folder or its file
   CHECK(read.velocity[b] == Vec3(1, 2, 3));
   CHECK(read.spin[b] == Vec3(4, 5, 6));
   std::ofstream(dir.file("mechanism.csv")) << "block,x_m,y_m,z_m,vx_m_s,vy_m_s,vz_m_s,wx_rad_s,wy_rad_s,wz_rad_s\nmoon,0,0,0,1,2,3,4,5,6\n";
   CHECK_THROWS_WITH(rates_of_mechanism(dir.file("mechanism.csv"), scene), Catch::Contains("another scene"));
+  std::filesystem::remove(dir.file("mechanism.csv"));
+  CHECK_THROWS_WITH(rates_of_mechanism(dir.path.string(), scene),
+                    Catch::Contains("mechanism.csv") && Catch::Contains("erbs limit SCENE.lua -o FOLDER"));
 }
 
 TEST_CASE("a camera path passes its keyframes and rests at its ends", "[render][camera]") {
