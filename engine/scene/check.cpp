@@ -176,7 +176,7 @@ void check_loads(Report& report, const Scene& scene, const Index& index) {
     const Block* block = named(report, index, load.block, load.place, who);
     if (block && block->fixed && load.kind != Kind::motion && load.kind != Kind::turning)
       report.say(load.place, "{}: block \"{}\" is fixed and feels none; name a free block", who, load.block);
-    if ((load.kind == Kind::force || load.kind == Kind::moment) && driven.contains(load.block))
+    else if ((load.kind == Kind::force || load.kind == Kind::moment) && driven.contains(load.block))
       report.say(load.place, "{}: block \"{}\" is driven by motion{{}} or turning{{}} and moves as they say; leave the {} out", who,
                  load.block, who);
     if (!inside(load.point, -1e6, 1e6)) report.say(load.place, "{}: its point is not a finite place; give numbers", who);

@@ -47,12 +47,15 @@ Support support_of(const Scene& scene, const std::string& name, const Vec3& dire
     return support;
   }
   double low = unbounded, high = -unbounded;
+  const auto free = [](const Block* block) { return !block->fixed; };
+  if (const auto first = std::ranges::find_if(support.blocks, free); first != support.blocks.end()) {
+    const auto others = std::ranges::count_if(support.blocks, free) - 1;
+    arguments.mistake(
+        fmt::format("supports: block \"{}\" is free{}; supports are fixed blocks: add fixed = true to {}, or move {} with motion{{}}",
+                    (*first)->name, others > 0 ? fmt::format(", and so are {} more of \"{}\"", others, name) : "",
+                    others > 0 ? "them" : "it", others > 0 ? "them" : "it"));
+  }
   for (const Block* block : support.blocks) {
-    if (!block->fixed)
-      arguments.mistake(
-          fmt::format("supports: block \"{}\" is free; supports are fixed blocks: add fixed = true to it, or move it with "
-                      "motion{{}}",
-                      block->name));
     for (const Polyhedron& part : block->parts)
       for (const Vec3& vertex : part.vertices) low = std::min(low, vertex.dot(direction)), high = std::max(high, vertex.dot(direction));
   }
@@ -82,10 +85,14 @@ Movement read_movement(Call& call, Arguments& arguments, const Vec3& usual) {
     arguments.mistake("supports names none; give blocks or groups, such as { \"arch.left\" }");
   std::set<const Block*> moved;
   for (const std::string& name : names) {
-    movement.supports.push_back(support_of(call.context.scene, name, movement.direction, arguments));
-    for (const Block* block : movement.supports.back().blocks)
-      if (!moved.insert(block).second)
-        arguments.mistake(fmt::format("supports: block \"{}\" is named twice, the second time by \"{}\"; keep one", block->name, name));
+    Support support = support_of(call.context.scene, name, movement.direction, arguments);
+    const auto again = std::ranges::find_if(support.blocks, [&](const Block* block) { return moved.contains(block); });
+    if (again != support.blocks.end()) {
+      arguments.mistake(fmt::format("supports: block \"{}\" is named twice, the second time by \"{}\"; keep one", (*again)->name, name));
+      support.blocks.clear();  // what follows from it is no mistake of its own
+    }
+    moved.insert(support.blocks.begin(), support.blocks.end());
+    movement.supports.push_back(std::move(support));
   }
   return movement;
 }

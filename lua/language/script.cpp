@@ -155,7 +155,7 @@ void check_study(Context& context) {
   const Place place{context.scene.file, 0};
   if (!context.plan)
     context.mistake(place, "it calls neither study{ ... } nor calibration{ ... }, so it is no study; erbs run runs a scene");
-  if (!context.scene.blocks.empty())
+  else if (!context.scene.blocks.empty())
     context.mistake(context.scene.blocks.front().place, "a study makes no blocks; they belong into its scene");
 }
 

@@ -124,11 +124,13 @@ std::vector<study::Range> ranges_of(Call& call, int& n, double& seed) {
   n = int(number("n", 1, 1e6, std::nan("")));
   seed = number("seed", -1e15, 1e15, 1);
   std::vector<study::Range> ranges;
+  bool any = false;  // also of those that are wrong, which are told
   for (const std::string& name : names_of(call, 1)) {
     if (name == "n" || name == "seed") continue;
+    any = true;
     if (auto one = range_of(call, 1, name)) ranges.push_back(*one);
   }
-  if (ranges.empty())
+  if (!any)
     call.mistake(fmt::format("it varies nothing; give ranges, such as {}{{ n = 100, ft = {{ 1e5, 3e5 }} }}", call.function.name));
   return ranges;
 }

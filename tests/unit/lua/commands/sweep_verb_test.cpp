@@ -220,6 +220,7 @@ TEST_CASE("mistakes of a study are refused with line and remedy, before any run"
       {"study{ scene = 'tiny.lua', vary = grid{ h = { 1 } }, memory = -1" + collect, "memory must be"},
       {"study{ scene = 'tiny.lua', vary = grid{ h = { 1 } }, keep = 'some'" + collect, "none"},
       {"local x = 1", "no study"},
+      {"study{ scene = 'tiny.lua', vary = latin{ n = 2, h = { 2, 1 } }" + collect, "h must be a range"},
       {"material{ name = 's', density = 1 } box{ name = 'b', size = { 1, 1, 1 }, at = { 0, 0, 0 }, material = 's' } study{ scene = "
        "'tiny.lua', vary = grid{ h = { 1 } }" +
            collect,
@@ -229,6 +230,7 @@ TEST_CASE("mistakes of a study are refused with line and remedy, before any run"
     INFO(text);
     CHECK(study.sweep(text) == 2);
     CHECK_THAT(study.said, Catch::Contains(wanted));
+    if (wanted == "h must be a range") CHECK_THAT(study.said, !Catch::Contains("varies nothing"));
     CHECK_FALSE(std::filesystem::exists(study.out()));
   }
   CHECK(study.sweep(grid, {"-D", "h=2"}) == 2);

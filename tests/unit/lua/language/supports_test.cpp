@@ -97,6 +97,20 @@ TEST_CASE("an arch whose supports spread by little stands, and its ledger closes
   INFO(bench.said);
 }
 
+TEST_CASE("a mistake in supports is told once, whatever follows from it", "[lua][supports][bad_input]") {
+  const std::string feet =
+      "for i = 0, 3 do box{ name = 'f' .. i, group = 'feet', fixed = i > 2, size = { .3, .3, .3 }, at = { 5 + i, 0, 0 } } end\n";
+  const auto once = [&](const std::string& text, const std::string& part) {
+    INFO(text);
+    const std::vector<std::string> all = mistakes_in(feet + text);
+    CHECK(all.size() == 1);
+    CHECK(mentions(all, part));
+  };
+  once("settle{ supports = {'feet'}, by = .1 }", "block \"f0\" is free, and so are 2 more of \"feet\"");
+  once("spread{ supports = {'f3', 'f3'}, by = .1 }", "\"f3\" is named twice");
+  once("settle{ supports = {'f3'}, by = .1 } force{ block = 'f3', wave = 1 }", "is fixed and feels none");
+}
+
 TEST_CASE("a joint rule may be optional, or name a group that a builder left empty", "[bad_input]") {
   const std::string wall =
       "local w = wall{ length = 2, courses = 4, brick = { length = .3, width = .125, height = .1 }, joint = 0, quiet = true, at = {5, 0, "
