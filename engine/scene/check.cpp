@@ -4,6 +4,7 @@
 #include <map>
 #include <numbers>
 #include <set>
+#include <tuple>
 #include <unordered_map>
 
 #include "engine/base/spelling.h"
@@ -287,6 +288,32 @@ void doubt_units(Report& report, const Scene& scene) {
   doubts.tell(report);
 }
 
+// Keys that another key would have to switch on.
+void doubt_idle_keys(Report& report, const Scene& scene) {
+  const Analysis &a = scene.analysis, usual;
+  if (a.solver != "sequential") {
+    std::vector<std::string> idle;
+    if (a.variant != usual.variant) idle.emplace_back("variant");
+    if (a.order != usual.order) idle.emplace_back("order");
+    if (a.iterations != usual.iterations) idle.emplace_back("iterations");
+    if (a.seed != usual.seed) idle.emplace_back("seed");
+    if (!idle.empty())
+      report.say(a.place, "analysis: without solver = \"sequential\" there is no use for {}; leave it out", fmt::join(idle, ", "));
+  }
+  if (a.ramp_time > 0 && a.start != "ramp")
+    report.say(a.place, "analysis: ramp_time = {:g} s is that of start = \"ramp\"; {}", a.ramp_time,
+               a.start == "rest" ? "start = \"rest\" has no ramp: leave it out"
+                                 : "start = \"equilibrium\" takes it only where there is no equilibrium");
+  for (const JointRule& rule : scene.joint_rules) {
+    const Mortar* m = rule.none ? nullptr : std::get_if<Mortar>(&rule.law);
+    if (m == nullptr) continue;
+    for (const auto& [strength, energy, value, strength_value] : {std::tuple{"ft", "Gf1", m->Gf1, m->ft}, {"c", "Gf2", m->Gf2, m->c}})
+      if (value > 0 && strength_value == 0)
+        report.say(rule.place, "mortar: {0} = {1:g} J/m2 does nothing, since {2} = 0 leaves no bond to lose; give {2}, or leave {0} out",
+                   energy, value, strength);
+  }
+}
+
 }  // namespace
 
 std::vector<std::string> check(const Scene& scene) {
@@ -306,6 +333,7 @@ std::vector<std::string> check(const Scene& scene) {
 std::vector<std::string> warnings(const Scene& scene) {
   Report report;
   doubt_units(report, scene);
+  doubt_idle_keys(report, scene);
   name_groups(report, scene, false);
   for (const JointRule& rule : scene.joint_rules) {
     if (rule.none) continue;

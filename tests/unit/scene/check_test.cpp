@@ -135,3 +135,26 @@ TEST_CASE("numbers whose unit is hardly meant are warned of, a kind once with a 
   scene.blocks[0].fixed = scene.blocks[1].fixed = true;
   CHECK_FALSE(mentions(warnings(scene), "m long"));
 }
+
+TEST_CASE("keys that another key would have to switch on are told", "[scene]") {
+  Scene scene = sound();
+  CHECK(warnings(scene).empty());
+  scene.analysis.iterations = 4, scene.analysis.seed = 7;
+  CHECK(mentions(warnings(scene), "without solver = \"sequential\" there is no use for iterations, seed"));
+  scene.analysis.solver = "sequential";
+  CHECK(warnings(scene).empty());
+
+  scene.analysis.ramp_time = 2;
+  CHECK(mentions(warnings(scene), "takes it only where there is no equilibrium"));
+  scene.analysis.start = "rest";
+  CHECK(mentions(warnings(scene), "has no ramp: leave it out"));
+  scene.analysis.start = "ramp";
+  CHECK(warnings(scene).empty());
+
+  Mortar mortar;
+  mortar.kn = 1e10, mortar.ks = 4e9, mortar.mu = 0.7, mortar.Gf1 = 10;
+  JointRule rule;
+  rule.law = mortar;
+  scene.joint_rules = {rule};
+  CHECK(mentions(warnings(scene), "Gf1 = 10 J/m2 does nothing, since ft = 0"));
+}
