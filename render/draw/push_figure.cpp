@@ -37,11 +37,13 @@ plot::Figure push_figure(const std::string& file, const CsvTable& curve, const R
   load.series.push_back({fmt::format("{}{}:1", source, x), "linespoints lw 1.6 pt 7 ps 0.5 lc rgb '#0072b2'", "states of equilibrium"});
   if (const double highest = *std::max_element(curve.columns[0].begin(), curve.columns[0].end()); highest > 0) {
     load.add_horizontal(highest, "lw 1 dt 3 lc rgb '#7d7d7d'");
-    load.labels.push_back({fmt::format("{:.4g}", highest), fmt::format("graph 0.01, first {}", highest), "offset 0,-0.7 tc rgb '#5d5d5d'"});
+    // above the line and at its end: the curve lies below, and rises at the other one
+    load.labels.push_back(
+        {fmt::format("{:.4g}", highest), fmt::format("graph 0.99, first {}", highest), "right offset 0,0.6 tc rgb '#5d5d5d'"});
   }
   const double most = std::max(peak_of(curve.column("joints_opened")), peak_of(curve.column("joints_slid")));
   const plot::Axis number{.label = "joints", .range = most > 0 ? "[0:*]" : "[0:1]", .tics = most < 5 ? "1" : ""};  // no halves
-  plot::Panel joints{.cell = {0, 1, 0, 0.36}, .x = {.label = along}, .y = number, .key = "top left"};
+  plot::Panel joints{.cell = {0, 1, 0, 0.36}, .x = {.label = along}, .y = number, .key = "tmargin right horizontal"};
   for (const auto& [name, title, look] : {std::array{"joints_opened", "opened", "#d55e00"}, std::array{"joints_slid", "slid", "#009e73"}})
     joints.series.push_back(
         {fmt::format("{}{}:{}", source, x, curve.find(name) + 1), fmt::format("linespoints lw 1.3 pt 7 ps 0.4 lc rgb '{}'", look), title});

@@ -50,21 +50,25 @@ struct PeriodLine {
   std::string name;
 };
 
-// Lines of equal period from the origin to the edge of the panel, with their names there. Names that would run into each other at the
-// upper edge are written to either side.
+// Lines of equal period from the origin to the edge of the panel, with their names there. Names that would run into each other are written
+// to either side at the upper edge, and one behind the other at the right edge.
 void add_periods(plot::Panel& panel, std::vector<PeriodLine> lines, const Scale& scale) {
   std::ranges::sort(lines, {}, &PeriodLine::period);
   const auto slope = [&](const PeriodLine& l) { return 4 * pi * pi / (l.period * l.period) / (standard_g * scale.length); };  // g per unit
   const auto end = [&](const PeriodLine& l) { return std::min(scale.x, scale.y / slope(l)); };
   for (std::size_t i = 0; i < lines.size(); ++i) {
     const double x = end(lines[i]), y = slope(lines[i]) * x;
+    const bool at_right = x > scale.x * (1 - 1e-9);
+    const bool behind = at_right && i > 0 && end(lines[i - 1]) > x * (1 - 1e-9) && slope(lines[i - 1]) * x - y < 0.06 * scale.y;
     const auto near = [&](std::size_t other) { return other < lines.size() && std::fabs(end(lines[other]) - x) < 0.25 * scale.x; };
-    const char* look = x > scale.x * (1 - 1e-9) ? "right offset -0.4,0.7"
-                       : near(i + 1)            ? "right offset 0.5,0.6"
-                       : near(i - 1)            ? "left offset -0.5,0.6"
-                                                : "center offset 0,0.6";
+    const char* look = at_right      ? "right offset -0.4,0.7"
+                       : near(i + 1) ? "right offset 0.5,0.6"
+                       : near(i - 1) ? "left offset -0.5,0.6"
+                                     : "center offset 0,0.6";
+    const double along = behind ? 0.8 : 1;  // of the line
     panel.lines.push_back(fmt::format("from first 0,0 to first {:.6g},{:.6g} nohead back lw 0.8 dt (4,4) lc rgb '{}'", x, y, grey));
-    panel.labels.push_back({lines[i].name, fmt::format("first {:.6g},{:.6g}", x, y), fmt::format("{} font ',11' tc rgb '#5a5a5a'", look)});
+    panel.labels.push_back(
+        {lines[i].name, fmt::format("first {:.6g},{:.6g}", along * x, along * y), fmt::format("{} font ',11' tc rgb '#5a5a5a'", look)});
   }
 }
 
@@ -73,7 +77,7 @@ plot::Panel panel_of(plot::Figure& figure, const Performance& p, const Performan
   plot::Panel panel;
   panel.x = {fmt::format("displacement of the oscillator [{}]", scale.unit), fmt::format("[0:{:.6g}]", scale.x)};
   panel.y = {"acceleration [g]", fmt::format("[0:{:.6g}]", scale.y)};
-  panel.key = "at graph 0.985,0.955 right top samplen 2.4 spacing 1.15 opaque";
+  panel.key = "at graph 0.5,-0.19 center top Left reverse samplen 2.4 spacing 1.15";
   const TargetDisplacement& o = point.oscillator;
   const BilinearCurve& b = point.bilinear;
   panel.labels.push_back({name, "graph 0.5,1.115", "center font ',14'"});
@@ -117,20 +121,19 @@ plot::Figure performance_figure(const Performance& p, const DesignSpectrum& spec
     acceleration = std::max(acceleration, spectral_acceleration(spectrum, period));
   const plot::ShownUnit& unit = plot::shown_unit(*plot::find_unit("m"), length);
   scale.length = unit.factor, scale.unit = unit.name;
-  scale.x = 1.15 * length * scale.length, scale.y = 1.5 * acceleration / standard_g;  // room for the legend
-  plot::Figure figure{.width = 1120, .height = 620};
+  scale.x = 1.15 * length * scale.length, scale.y = 1.15 * acceleration / standard_g;
+  plot::Figure figure{.width = 1120, .height = 720};
   figure.labels.push_back({title, "screen 0.5,0.965", "center font ',15'"});
   figure.labels.push_back(
       {fmt::format("{}; shape at the {}, {} mass node{}, Gamma = {:.4g}", p.spectrum, p.shape == "peak" ? "peak" : "first state under load",
                    p.nodes.nodes, p.nodes.nodes == 1 ? "" : "s", p.nodes.gamma),
        "screen 0.5,0.925", "center font ',12'"});
-  figure.settings = "set lmargin 10\nset rmargin 8\n";
   figure.panels.push_back(panel_of(figure, p, p.n2, spectrum, "N2, EN 1998-1 annex B: A = F*/m*", scale));
   figure.panels.push_back(panel_of(figure, p, p.mpp, spectrum, "mass-proportional pushover: A = V/M", scale));
   for (std::size_t i = 0; i < 2; ++i) {
     const double left = 0.5 * double(i);
     figure.panels[i].cell = {left, left + 0.5, 0, 0.9};
-    figure.panels[i].axes = plot::Box{left + 0.07, left + 0.455, 0.11, 0.8};
+    figure.panels[i].axes = plot::Box{left + 0.085, left + 0.465, 0.29, 0.83};
   }
   return figure;
 }

@@ -82,7 +82,9 @@ void add_target(Sheet& sheet, const CalibrationTarget& target, const std::vector
                 std::size_t from, plot::Box cell, bool legend) {
   const double middle = cell.bottom + 0.42 * (cell.top - cell.bottom);
   plot::Panel upper, lower;
-  upper.axes = {cell.left, cell.right, middle + 0.02, cell.top}, lower.axes = {cell.left, cell.right, cell.bottom + 0.055, middle - 0.01};
+  constexpr double below = 54;  // px, for numbers and the name of the axis
+  const double foot = cell.bottom + below / sheet.figure.height;
+  upper.axes = {cell.left, cell.right, middle + 0.02, cell.top}, lower.axes = {cell.left, cell.right, foot, middle - 0.01};
   std::vector<double> x, less, old_values, values;
   for (std::size_t i = 0; i < target.values.size(); ++i) {
     x.push_back(double(i + 1));
@@ -91,7 +93,7 @@ void add_target(Sheet& sheet, const CalibrationTarget& target, const std::vector
   }
   const std::string range = fmt::format("[0.5:{}]", double(x.size()) + 0.5);
   upper.x = {"", range, "1", "none"}, lower.x = {"number", range, "1"};
-  upper.y = {target.label, "", "", "", "noenhanced"}, lower.y = around_zero(fmt::format("[% of {:.3g}]", target.scale), less);
+  upper.y = {target.label, "", "", "", "noenhanced"}, lower.y = around_zero(fmt::format("residual [% of {:.3g}]", target.scale), less);
   if (legend) upper.key = legend_above;
   sheet.add(upper, x, target.values, std::string("linespoints pt 6 ps 1.1 ") + known_look, "known");
   sheet.add(upper, x, old_values, "points pt 2 ps 0.9 lc rgb '#1f5f8b'", "as the scene is written");

@@ -226,6 +226,18 @@ TEST_CASE("periods whose names would run into each other are named to either sid
   CHECK(looks == std::vector<std::string>{"right", "left"});
 }
 
+TEST_CASE("periods whose lines leave the sheet close to each other at the right are named one behind the other", "[performance]") {
+  const Structure s = structure({1000}, {1}, 100, 0.0146, 0.05);  // T* = 2.4 s beside the corner at 2 s
+  const plot::Figure figure = performance_figure(performance_of(s.curve, s.shape, demand_of(2)), en_b(2), "close");
+  double corner = 0, own = 0;  // mm, where the names begin
+  for (const plot::Label& label : figure.panels.front().labels) {
+    if (label.text.starts_with("T* =")) own = std::stod(label.at.substr(6));
+    if (label.text == "2 s") corner = std::stod(label.at.substr(6));
+  }
+  CHECK(own > 0);
+  CHECK(own < 0.85 * corner);
+}
+
 TEST_CASE("a target where a push has leapt over all states is refused", "[performance]") {
   const double mass = 1000, T = 0.8;
   const double yield = spectral_acceleration(en_b(2), T) / 2.5, at_yield = yield * std::pow(T / (2 * pi), 2);
