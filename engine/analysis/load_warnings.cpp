@@ -6,7 +6,7 @@
 namespace erbs::analysis {
 namespace {
 
-constexpr double instant = 1e-6;  // s
+constexpr double brief = 1e-6;  // s
 // Of a support, m/s. Mortar of 1800 kg/m3 in which waves travel at 1000 m/s feels 18 kPa, a fifth of a usual tensile strength.
 constexpr double sudden_speed = 0.01;
 
@@ -62,18 +62,19 @@ std::string idle(const Load& load, double duration) {
 // A displacement or a speed that is there at once, where the wave begins or the run does. `joined`: the block bears others, so that a speed
 // is a blow to them.
 std::string blow(const Load& load, double duration, bool joined) {
-  const bool turns = load.kind == Load::Kind::turning;
+  const bool rotates = load.kind == Load::Kind::turning;
   const double begin = value(load.wave, 0) != 0 ? 0 : std::max(0.0, begin_of(load.wave));
   if (!(begin < duration)) return "";
   const auto x = [&](double t) { return t < 0 ? 0 : value(load.wave, t); };  // blocks start where the scene has them
-  const double jump = x(begin) - x(begin - instant), speed = (x(begin + 2 * instant) - x(begin + instant)) / instant,
-               before = (x(begin - instant) - x(begin - 2 * instant)) / instant;
+  const double jump = x(begin) - x(begin - brief), speed = (x(begin + 2 * brief) - x(begin + brief)) / brief,
+               before = (x(begin - brief) - x(begin - 2 * brief)) / brief;
   const char* remedy = "begin it smoothly, as a curve_wave from 0 with hold = true does";
   if (std::fabs(jump) > 1e-6)  // m or rad
-    return fmt::format("{}: it jumps to {:.4g} {} at {:g} s, within one step; {}", name_of(load), jump, turns ? "rad" : "m", begin, remedy);
+    return fmt::format("{}: it jumps to {:.4g} {} at {:g} s, within one step; {}", name_of(load), jump, rotates ? "rad" : "m", begin,
+                       remedy);
   if (joined && std::fabs(speed - before) > sudden_speed)
     return fmt::format("{}: it starts at once with {:.3g} {} at {:g} s, a blow to what the block bears; {}", name_of(load), speed - before,
-                       turns ? "rad/s" : "m/s", begin, remedy);
+                       rotates ? "rad/s" : "m/s", begin, remedy);
   return "";
 }
 

@@ -130,8 +130,7 @@ std::vector<study::Range> ranges_of(Call& call, int& n, double& seed) {
     any = true;
     if (auto one = range_of(call, 1, name)) ranges.push_back(*one);
   }
-  if (!any)
-    call.mistake(fmt::format("it varies nothing; give ranges, such as {}{{ n = 100, ft = {{ 1e5, 3e5 }} }}", call.function.name));
+  if (!any) call.mistake(fmt::format("it varies nothing; give ranges, such as {}{{ n = 100, ft = {{ 1e5, 3e5 }} }}", call.function.name));
   return ranges;
 }
 
