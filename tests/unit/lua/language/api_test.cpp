@@ -173,7 +173,7 @@ TEST_CASE("a wrong number among the points of a wave is one mistake, not two", "
 
 TEST_CASE("a function that is sampled too coarsely is told", "[lua]") {
   const auto notes = [](const std::string& wave) { return scene_of("force{ block = 'b', direction = 'z', wave = " + wave + " }").notes; };
-  const std::string sine = "function(t) return sin(2 * pi * 20 * t) end";
+  const std::string sine = "function(t) return math.sin(2 * pi * 20 * t) end";
   const auto told = notes(sine + ", sample = .05");  // one sample a period: nothing is left of it
   REQUIRE(told.size() == 1);
   CHECK(mentions(told, "warning: scene.lua:6: between its samples, 0.05 s apart"));
