@@ -122,8 +122,8 @@ void switch_off(Scene& scene, const std::string& name) {
   std::string near = nearest(name, names);
   for (const std::string& one : names)
     if (near.empty() && !name.empty() && one.find(name) != std::string::npos) near = one;
-  throw Error(fmt::format("there is no effect \"{}\"{}; give one of: {}", name,
-                          near.empty() ? "" : fmt::format("; did you mean \"{}\"?", near), fmt::join(names, ", ")));
+  throw Error(fmt::format("there is no effect \"{}\", only {}{}", name, fmt::join(names, ", "),
+                          near.empty() ? "" : fmt::format("; did you mean \"{}\"?", near)));
 }
 
 const char* one_level_only(const Scene& scene) {

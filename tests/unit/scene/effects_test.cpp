@@ -92,5 +92,5 @@ TEST_CASE("every effect can be switched off, and another name is met with all of
   for (const Effect& effect : effects_of(scene)) CHECK_NOTHROW(switch_off(scene, effect.name));
   CHECK_THROWS_WITH(switch_off(scene, "debris contacts"), Catch::Contains("did you mean \"debris contact\"?"));
   CHECK_THROWS_WITH(switch_off(scene, "dashpots"),
-                    Catch::Contains("did you mean \"dashpots of joints\"?") && Catch::Contains("give one of: ground x, ground y,"));
+                    Catch::Contains("did you mean \"dashpots of joints\"?") && Catch::Contains("only ground x, ground y,"));
 }
