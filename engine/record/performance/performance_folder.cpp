@@ -14,7 +14,7 @@ const std::vector<std::string> shape_columns{"block", "group", "mass_kg", "heigh
 
 CsvTable read_file(const std::string& dir, const std::string& name) {
   const auto there = [&](const char* file) { return std::filesystem::is_regular_file(dir + "/" + file); };
-  if (!there("curve.csv"))
+  if (!there(name.c_str()) && !there("curve.csv"))
     throw Error(
         "a capacity curve belongs to a push, and this run is a time history; run its scene with analysis{ kind = \"pushover\" }, which "
         "takes no duration and constant loads only",

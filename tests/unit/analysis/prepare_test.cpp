@@ -166,7 +166,7 @@ TEST_CASE("loads that begin after the run, and supports that jump, are told", "[
   const auto told = [](const std::string& load, const std::string& part) {
     return mentions(prepare(test::small_wall("analysis{duration=1} " + load), false).warnings, part);
   };
-  const std::string support = test::small_wall("").blocks.front().name, top = test::small_wall("").blocks.back().name;
+  const std::string support = "foot", top = "b5_3";
   const auto force = [&](const std::string& wave) { return "force{ block = '" + top + "', direction = 'x', wave = " + wave + " }"; };
   const auto motion = [&](const std::string& wave) { return "motion{ block = '" + support + "', direction = 'x', wave = " + wave + " }"; };
   const std::string late = "begins at 3 s, and the run ends at 1 s";

@@ -227,12 +227,14 @@ TEST_CASE("periods whose names would run into each other are named to either sid
 }
 
 TEST_CASE("periods whose lines leave the sheet close to each other at the right are named one behind the other", "[performance]") {
-  const Structure s = structure({1000}, {1}, 100, 0.0146, 0.05);  // T* = 2.4 s beside the corner at 2 s
-  const plot::Figure figure = performance_figure(performance_of(s.curve, s.shape, demand_of(2)), en_b(2), "close");
+  const Structure s = structure({1000}, {1}, 100, 0.00496, 0.02);  // T* = 1.4 s beside the corner at 1.2 s
+  PerformanceDemand demand = demand_of(2);
+  demand.spectrum.kind = "EN 1998-1 type 2";
+  const plot::Figure figure = performance_figure(performance_of(s.curve, s.shape, demand), demand.spectrum, "close");
   double corner = 0, own = 0;  // mm, where the names begin
   for (const plot::Label& label : figure.panels.front().labels) {
     if (label.text.starts_with("T* =")) own = std::stod(label.at.substr(6));
-    if (label.text == "2 s") corner = std::stod(label.at.substr(6));
+    if (label.text == "1.2 s") corner = std::stod(label.at.substr(6));
   }
   CHECK(own > 0);
   CHECK(own < 0.85 * corner);
