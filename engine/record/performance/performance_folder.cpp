@@ -16,7 +16,8 @@ CsvTable read_file(const std::string& dir, const std::string& name) {
   const auto there = [&](const char* file) { return std::filesystem::is_regular_file(dir + "/" + file); };
   if (!there(name.c_str()) && !there("curve.csv"))
     throw Error(
-        "a capacity curve belongs to a push, and this run is a time history; run its scene with analysis{ kind = \"pushover\" }, which "
+        "there is no curve.csv: a capacity curve belongs to a push, and this run is a time history; run its scene with analysis{ kind = "
+        "\"pushover\" }, which "
         "takes no duration and constant loads only",
         {dir});
   if (!there(name.c_str()))
