@@ -142,7 +142,7 @@ double covered_share(const PairFrame& s, const Vec3& n, double travel) {
   constexpr double along_face = 0.7;  // least sine between n and the edges asked for
   if (!corners_known(s)) return 1;
   double covered = std::min(s.reference->largest_face, s.other->largest_face);
-  const auto look = [&](const ContactShape& shape, const Mat3& rotation) {
+  const auto cover = [&](const ContactShape& shape, const Mat3& rotation) {
     for (const Vec3& axis : shape.normal) {
       const Vec3 m = rotation * axis, t = m - m.dot(n) * n;
       const double size = t.norm();
@@ -151,8 +151,8 @@ double covered_share(const PairFrame& s, const Vec3& n, double travel) {
       covered = std::min(covered, std::max(0.0, width) * std::max(0.0, length));
     }
   };
-  look(*s.reference, s.reference_block->rotation);
-  look(*s.other, s.other_block->rotation);
+  cover(*s.reference, s.reference_block->rotation);
+  cover(*s.other, s.other_block->rotation);
   return covered / std::min(s.reference->largest_face, s.other->largest_face);
 }
 
@@ -247,11 +247,11 @@ std::span<const int> corners_of_face(const ContactShape& shape, std::size_t face
 
 // Events and impacts of the corners that come down on the plane. With each the face presses with more: the last one lands it flat, one of
 // two may land an edge.
-struct Landing {
+struct FaceBlow {
   double event_rate = 0, soon = 0;  // 1/s; share of a face that lands within the next steps
 };
-Landing foresee_landing(const CornersOverPlane& one, const PairFrame& s, const ContactSettings& settings, double face, double dt) {
-  Landing landing;
+FaceBlow foresee_landing(const CornersOverPlane& one, const PairFrame& s, const ContactSettings& settings, double face, double dt) {
+  FaceBlow blow;
   const ContactBlock &c = one.block, &p = one.of_plane;
   const Vec3 apart = (c.rest - p.rest) + (c.u - p.u), v = c.v - p.v;
   double height[most_vertices], rate[most_vertices];  // m, m/s
@@ -267,10 +267,10 @@ Landing foresee_landing(const CornersOverPlane& one, const PairFrame& s, const C
     double low[3] = {1e300, 1e300, 1e300};  // m, of the corners above the plane by then
     for (std::size_t j = 0; j < count; ++j) lower(j == i ? 0 : std::max(0.0, height[j] + rate[j] * time), low);
     const double share = pressed_share(low, look_ahead * speed * dt, 0);
-    landing.event_rate = std::max(landing.event_rate, event_rate(0.5 * share * face, speed, height[i], s, settings));
-    if (speed > settings.reference_speed && time <= look_ahead * dt) landing.soon = std::max(landing.soon, share);
+    blow.event_rate = std::max(blow.event_rate, event_rate(0.5 * share * face, speed, height[i], s, settings));
+    if (speed > settings.reference_speed && time <= look_ahead * dt) blow.soon = std::max(blow.soon, share);
   }
-  return landing;
+  return blow;
 }
 
 }  // namespace
@@ -285,14 +285,14 @@ void foresee(const ContactPair& pair, const PairFrame& s, const ContactSettings&
   const bool of_other = s.other->reach <= s.reference->reach;  // corners of the smaller body
   const bool each_corner = std::isfinite(settings.blow_share);
   const double near = 0.01 * thin + (each_corner ? result.depth : 0);  // m
-  double soon = 0;                                                     // `Landing`
+  double soon = 0;                                                     // `FaceBlow`
   bool flat = false;                                                   // nearly
-  const auto lands = [&](const Vec3& along, const auto& landing) {
-    Landing now = landing(face);
+  const auto lands = [&](const Vec3& along, const auto& predict) {
+    FaceBlow now = predict(face);
     if (now.event_rate * dt > 0.5 || now.soon > soon) {  // few: only now does it matter how much of the face is covered
       const double travel = result.depth + look_ahead * dt * (speed_seen(s, r.w).norm() + w.norm() * s.other->reach);
       const double covered = covered_share(s, along, travel);
-      now = {landing(covered * face).event_rate, std::min(now.soon, covered)};
+      now = {predict(covered * face).event_rate, std::min(now.soon, covered)};
     }
     result.event_rate = std::max(result.event_rate, now.event_rate);
     soon = std::max(soon, now.soon);
@@ -320,7 +320,7 @@ void foresee(const ContactPair& pair, const PairFrame& s, const ContactSettings&
       }
       const double rate = closes / sine, time = sine / rate;
       const bool is_near = rate * lever > settings.reference_speed && time <= look_ahead * dt;
-      lands(nf, [&](double k) { return Landing{event_rate(0.5 * k, rate * lever, sine * lever, s, settings), is_near ? 1.0 : 0.0}; });
+      lands(nf, [&](double k) { return FaceBlow{event_rate(0.5 * k, rate * lever, sine * lever, s, settings), is_near ? 1.0 : 0.0}; });
     }
   }
   // An edge may still land on the plane of the contact.
