@@ -23,12 +23,12 @@ struct alignas(64) PairPackOf {
   OverlapSums sums[n];
   Row max_depth;  // m
   Row total, area, force[3], moment[3], normal[3], size, pressure_centre[3], centroid[3], second[6], gyration;
-  Row linear[3], angular[3];     // m/s, rad/s, motion of the other body
-  Row along, angular_part[3];    // for `ClipKernels::closing_speeds`
-  Row closing_speed;             // m/s
-  Row inverse_mass, chi, limit;  // of the dashpot
+  Row linear[3], angular[3];                     // m/s, rad/s, motion of the other body
+  Row along, angular_part[3];                    // for `ClipKernels::closing_speeds`
+  Row closing_speed;                             // m/s
+  Row inverse_mass, chi, limit;                  // of the dashpot
   Row lag, lag_stiffness, lag_keeps, lag_takes;  // N, as in ContactPair; over kn A; shares of the last lag and of the capped dashpot
-  Row damping[4];                // total and first moment from `ClipKernels::damp`, kn = 1
+  Row damping[4];                                // total and first moment from `ClipKernels::damp`, kn = 1
   // Friction: springs with their slip, dashpots, and the part within the limit.
   Row u0[3], psi0, u1[3], psi1, kt, kr, springs[3], torsion, dashpots[3], dashpot_torsion, lever[3], held, most, radius, share;
   Row holds;  // 1: springs and dashpots are surely within the limit

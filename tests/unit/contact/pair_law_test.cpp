@@ -149,7 +149,8 @@ TEST_CASE("a number and a pack obey one law of a pair, to the last bit", "[conta
       CHECK(different(*pack, one, l, pack->max_depth, one.max_depth, after) == 0);
     }
   }
-  INFO("sure " << sure << " sticking " << sticking << " slipping " << slipping << " braking " << braking << " lagging " << lagging << " points " << points);
+  INFO("sure " << sure << " sticking " << sticking << " slipping " << slipping << " braking " << braking << " lagging " << lagging
+               << " points " << points);
   CHECK(sure > 500);
   CHECK(sticking > 2000);
   CHECK(slipping > 2000);
