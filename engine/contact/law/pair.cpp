@@ -156,18 +156,18 @@ PairWrench to_world(const ContactPair& pair, const PairFrame& s, const Vec3& for
   return pair.b_is_reference ? PairWrench{-f, m_other, m_reference} : PairWrench{f, m_reference, m_other};
 }
 
-}  // namespace
-
 // Strength of a blow, over what the step bears, from which a part lags (`begin_lag()`): each blow counts where there are few, those of
 // equal blocks too. In a rain of bricks that would cost a fifth of the steps.
-static double lag_from(const ContactSettings& s) { return std::isfinite(s.blow_share) ? 2 : 6; }
+double lag_from(const ContactSettings& s) { return std::isfinite(s.blow_share) ? 2 : 6; }
+
+}  // namespace
 
 PairSettings pair_settings(const ContactSettings& s, const PairInterval& interval) {
   return {interval.since,
           interval.drift,
           interval.booked ? 1.0 : 0.0,
-          s.falling_mass,
           lag_from(s),
+          s.falling_mass,
           s.memory,
           s.reference_speed,
           s.settling,

@@ -41,7 +41,8 @@ using OnePair = PairPackOf<1>;
 struct PairSettings {
   double dt, drift;  // s, since the last evaluation; of the last drift, by half of which velocities lag behind poses
   double booked;     // 1: the work of the last wrenches after their kick is booked already, else 0
-  double falling_mass, lag_from, memory, reference_speed, settling, settling_tangential;  // as in ContactSettings
+  double lag_from;   // strength of a blow, over what the step bears, from which a part of it lags
+  double falling_mass, memory, reference_speed, settling, settling_tangential;  // as in ContactSettings
   InterlockStep interlock;
   double flat_face, slender;  // `pair.h`
 };
