@@ -3,7 +3,7 @@
 #include <string>
 
 #include "engine/analysis/diagnostics.h"
-#include "engine/analysis/prepare.h"
+#include "engine/analysis/start/prepare.h"
 #include "engine/record/results/collapse.h"
 
 namespace erbs::analysis {

@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <filesystem>
 
-#include "engine/analysis/prepare.h"
+#include "engine/analysis/start/at_rest.h"
 #include "engine/base/system/process.h"
 #include "engine/record/format/json.h"
 #include "engine/record/results/metrics.h"

@@ -5,8 +5,8 @@
 #include <set>
 
 #include "engine/analysis/flat_bed.h"
-#include "engine/analysis/prepare.h"
 #include "engine/analysis/quasi_static/relaxation.h"
+#include "engine/analysis/start/prepare.h"
 #include "engine/base/text.h"
 #include "engine/record/recorders/recorder.h"
 #include "engine/scene/effects.h"

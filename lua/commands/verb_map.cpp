@@ -6,7 +6,7 @@
 #include <cstdio>
 #include <filesystem>
 
-#include "engine/analysis/prepare.h"
+#include "engine/analysis/start/prepare.h"
 #include "engine/base/hash.h"
 #include "engine/base/system/process.h"
 #include "engine/base/units.h"

@@ -87,7 +87,7 @@ namespace {
 void check_between(lua_State* lua, Context& context, int function, const Samples& s, const Place& place) {
   constexpr double most_looks = 1000, off = 0.05;  // intervals that are looked into; deviation, of the range of the values
   const double steps = double(s.times.size() - 1), looks = std::min(steps, most_looks), sample = s.times[1] - s.times[0];
-  auto [low, high] = std::ranges::minmax(s.values);
+  double low = std::ranges::min(s.values), high = std::ranges::max(s.values);
   double worst = 0, when = 0;
   std::vector<double> errors;
   for (double k = 0; k < looks; ++k) {

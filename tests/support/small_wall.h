@@ -2,7 +2,7 @@
 #pragma once
 #include <string>
 
-#include "engine/analysis/prepare.h"
+#include "engine/analysis/start/at_rest.h"
 #include "engine/solve/step.h"
 #include "lua/language/script.h"
 

@@ -34,7 +34,7 @@ const std::map<std::string, Levels> sub_rooms{
     {"contact", {{"overlap"}, {"law"}, {"broad"}, {""}}},
     {"solve", {{"blocks", "linear"}, {"contacts", "sequential"}, {""}}},
     {"record", {{"format", "plot"}, {"recorders", "performance"}, {"results"}, {"folder"}, {"export"}, {"report"}}},
-    {"analysis", {{"limit"}, {""}, {"quasi_static"}}},
+    {"analysis", {{"limit", "start"}, {""}, {"quasi_static"}}},
     {"study", {{""}, {"sweep"}, {"calibrate", "fragility"}}},
     {"lua", {{"reading", "masonry", "page"}, {"language"}, {"program"}, {"reports"}, {"commands"}, {""}}},
     {"render", {{"image", "run"}, {"gl"}, {"draw"}, {"movie"}, {"compare", "vector"}, {""}}},

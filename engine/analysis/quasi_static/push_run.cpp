@@ -10,6 +10,7 @@
 #include "engine/analysis/quasi_static/relaxation.h"
 #include "engine/analysis/resume.h"
 #include "engine/analysis/snapshot.h"
+#include "engine/analysis/start/at_rest.h"
 #include "engine/record/folder/checkpoint.h"
 #include "engine/record/folder/run_writer.h"
 #include "engine/record/results/collapse.h"

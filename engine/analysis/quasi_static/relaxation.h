@@ -8,10 +8,10 @@
 #include <string>
 
 #include "engine/analysis/crew.h"
-#include "engine/analysis/prepare.h"
 #include "engine/analysis/quasi_static/push_loads.h"
 #include "engine/analysis/quasi_static/push_path.h"
 #include "engine/analysis/quasi_static/scaled_inertia.h"
+#include "engine/analysis/start/prepare.h"
 #include "engine/solve/step.h"
 
 namespace erbs::analysis {

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "engine/analysis/newton.h"
+#include "engine/analysis/start/newton.h"
 #include "engine/base/symmetric.h"
 #include "engine/solve/linear/stiffness.h"
 

@@ -67,7 +67,7 @@ struct Metrics {
     std::optional<double> chaos_horizon;  // s; none: the twins stay together to the end
   } diagnostics;
   std::optional<Capacity> capacity;  // of a push
-  struct Equilibrium {               // of the start under gravity and constant loads (analysis/equilibrium.h)
+  struct Equilibrium {               // of the start under gravity and constant loads (analysis/start/equilibrium.h)
     int iterations = 0, islands_without = 0;
     double unbalanced = 0;  // largest unbalanced force over the largest applied one of its island
     double wall = 0;        // s

@@ -3,7 +3,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "engine/analysis/prepare.h"
+#include "engine/analysis/start/at_rest.h"
 #include "engine/model/state_fields.h"
 #include "engine/record/folder/checkpoint.h"
 #include "engine/solve/step.h"

@@ -4,8 +4,8 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "engine/analysis/prepare.h"
 #include "engine/analysis/rocking.h"
+#include "engine/analysis/start/prepare.h"
 #include "engine/base/units.h"
 #include "tests/unit/lua/load.h"
 

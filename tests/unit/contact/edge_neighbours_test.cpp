@@ -1,7 +1,7 @@
 // Blocks that meet along an edge at rest: the force they carry while skipped, and a contact test in time.
 #include <catch2/catch.hpp>
 
-#include "engine/analysis/prepare.h"
+#include "engine/analysis/start/at_rest.h"
 #include "engine/contact/broad/edge_neighbours.h"
 #include "engine/solve/step.h"
 #include "tests/unit/contact/bodies.h"

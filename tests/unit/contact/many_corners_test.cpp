@@ -1,7 +1,7 @@
 // Convex bodies with hundreds of corners: the same contact law as for a brick at any number, and a message beyond the bound.
 #include <catch2/catch.hpp>
 
-#include "engine/analysis/prepare.h"
+#include "engine/analysis/start/at_rest.h"
 #include "engine/record/folder/checkpoint.h"
 #include "engine/solve/step.h"
 #include "tests/unit/contact/bodies.h"

@@ -1,7 +1,7 @@
 // Opening and closing of joints: impacts at the default step conserve energy, and shaken structures come to rest.
 #include <catch2/catch.hpp>
 
-#include "engine/analysis/prepare.h"
+#include "engine/analysis/start/at_rest.h"
 #include "engine/joints/event_bound.h"
 #include "engine/solve/energy.h"
 #include "engine/solve/step.h"

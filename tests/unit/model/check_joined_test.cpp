@@ -1,7 +1,7 @@
 // Detection of joined and loose blocks at rest, on scenes of a few bricks.
 #include <catch2/catch.hpp>
 
-#include "engine/analysis/prepare.h"
+#include "engine/analysis/start/prepare.h"
 #include "engine/model/build/build.h"
 #include "tests/unit/lua/load.h"
 

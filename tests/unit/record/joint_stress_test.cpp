@@ -4,7 +4,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "engine/analysis/prepare.h"
+#include "engine/analysis/start/prepare.h"
 #include "engine/joints/response.h"
 #include "engine/record/recorders/joint_condition.h"
 #include "lua/language/script.h"

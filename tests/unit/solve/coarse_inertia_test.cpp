@@ -3,8 +3,8 @@
 
 #include <catch2/catch.hpp>
 
-#include "engine/analysis/prepare.h"
 #include "engine/analysis/quasi_static/push_run.h"
+#include "engine/analysis/start/prepare.h"
 #include "engine/base/units.h"
 #include "engine/record/format/csv.h"
 #include "engine/solve/linear/stiffness.h"

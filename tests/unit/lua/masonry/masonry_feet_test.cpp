@@ -1,7 +1,7 @@
 // A block on feet: its mass and its feet, joined to what lies below, and wrong arguments named.
 #include <catch2/catch.hpp>
 
-#include "engine/analysis/prepare.h"
+#include "engine/analysis/start/prepare.h"
 #include "engine/geometry/mass.h"
 #include "tests/unit/lua/load.h"
 

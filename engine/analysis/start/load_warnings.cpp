@@ -1,4 +1,4 @@
-#include "engine/analysis/load_warnings.h"
+#include "engine/analysis/start/load_warnings.h"
 
 #include <algorithm>
 #include <cmath>

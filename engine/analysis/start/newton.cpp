@@ -1,4 +1,4 @@
-#include "engine/analysis/newton.h"
+#include "engine/analysis/start/newton.h"
 
 #include <algorithm>
 #include <cmath>

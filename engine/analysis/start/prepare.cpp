@@ -1,12 +1,12 @@
-#include "engine/analysis/prepare.h"
+#include "engine/analysis/start/prepare.h"
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <optional>
 
-#include "engine/analysis/load_warnings.h"
-#include "engine/analysis/resting.h"
+#include "engine/analysis/start/load_warnings.h"
+#include "engine/analysis/start/resting.h"
 #include "engine/base/random.h"
 #include "engine/base/units.h"
 #include "engine/contact/overlap/shape.h"
@@ -138,8 +138,6 @@ void hold_use_limit(const Scene& scene, const Prepared& p) {
           use.place);
 }
 
-bool starts_loaded(const Model& m) { return m.gravity.norm() > 0 || !m.force_loads.empty(); }
-
 // Refuses initial poses that the equilibrium of joined blocks would undo.
 void refuse_lost_poses(const Scene& scene, const Prepared& p) {
   const Model& m = p.model;
@@ -154,17 +152,6 @@ void refuse_lost_poses(const Scene& scene, const Prepared& p) {
                             block.name, scene.analysis.start),
                 block.place);
   }
-}
-
-std::vector<double> constant_loads(const Model& m, const State& s) {
-  std::vector<double> loads(6 * z(m.nblock) + 6, 0.0);
-  for (const auto& p : m.force_loads) {
-    const Vec3 f = value(p.wave, 0) * p.direction;
-    for (int i = 0; i < 3; ++i) loads[6 * z(p.block) + z(p.moment ? 3 + i : i)] += f[i];
-    const Vec3 moment = p.moment ? Vec3(Vec3::Zero()) : Vec3((s.pose.q[z(p.block)] * p.arm).cross(f));
-    for (int i = 0; i < 3; ++i) loads[6 * z(p.block) + 3 + z(i)] += moment[i];
-  }
-  return loads;
 }
 
 // Refuses parts that exceed the limits of contact shapes. The check is here, not at the start of a run, so that `check` refuses the same
@@ -207,168 +194,6 @@ Prepared prepare(const Scene& scene, bool allow_unstable) {
   choose_dt(scene, p, allow_unstable);
   if (!allow_unstable) hold_use_limit(scene, p);
   return p;
-}
-
-namespace {
-
-constexpr double ramp_seconds = 0.2, ramp_limit = 25;  // s, default duration of the ramp; ramps until a moving block counts as falling
-// Limit of rest: kinetic energy of a block over the work of its weight along the structure's height. A block under 1.001 times its friction
-// slides at 5e-4 m/s against the ramp's damping of 100 1/s. A structure of 1 m is at rest below 4e-4 m/s. A slower block falls by less than
-// a tenth of a millimetre during a shock.
-constexpr double rest_energy = 1e-8;
-
-// Blocks that still move, and blocks that fall: lower than at the start by half their thinnest extent, the criterion of `Collapse`.
-class Unrest {
- public:
-  Unrest(const Model& m, const State& s) : model_(m), state_(s), start_(s.pose.u), down_(m.gravity.normalized()) {
-    double low = 1e300, high = -1e300;
-    for (int b = 0; b < m.nblock; ++b) {
-      if (m.kind[z(b)] != Kind::moving) continue;
-      const double at = down_.dot(m.rest[z(b)]), edge = m.smallest_edge[z(b)];
-      low = std::min(low, at - edge / 2), high = std::max(high, at + edge / 2);
-    }
-    const double g = m.gravity.norm() > 0 ? m.gravity.norm() : standard_g;  // for loads without gravity, its usual value
-    square_ = 2 * rest_energy * g * std::max(0.0, high - low);
-  }
-  bool falls(int b) const { return down_.dot(state_.pose.u[z(b)] - start_[z(b)]) > 0.5 * model_.thickness[z(b)]; }
-  bool moves(int b) const {
-    const double rotation_energy = state_.motion.w[z(b)].dot(state_.motion.spin_momentum[z(b)]) / model_.mass[z(b)];
-    return state_.motion.v[z(b)].squaredNorm() + rotation_energy > square_;
-  }
-  // True if every block that does not fall is at rest.
-  bool ended() const {
-    for (int b = 0; b < model_.nblock; ++b)
-      if (model_.kind[z(b)] == Kind::moving && moves(b) && !falls(b)) return false;
-    return true;
-  }
-
- private:
-  const Model& model_;
-  const State& state_;
-  const BlockVec3 start_;
-  const Vec3 down_;
-  double square_ = 0;  // m2/s2, square of the speed below which a block is at rest
-};
-
-// State that the ramp must not change: blocks already in equilibrium, and joints among such blocks and fixed ones only.
-struct Held {
-  std::vector<std::uint8_t> block;  // [nblock], empty for none
-  State state;
-
-  void give_back(const Model& m, State& s) const {
-    const auto holds = [&](int b) { return block[z(b)] || m.kind[z(b)] != Kind::moving; };
-    for (int b = 0; b < m.nblock; ++b)
-      if (block[z(b)]) s.pose.u[z(b)] = state.pose.u[z(b)], s.pose.q[z(b)] = state.pose.q[z(b)];
-    for (int j = 0; j < m.njoint; ++j) {
-      const Joint& joint = m.joint[z(j)];
-      if (!holds(joint.a) || !holds(joint.b)) continue;
-      s.joints.memory[z(j)] = state.joints.memory[z(j)];
-      for (int i = joint.first_point; i < joint.first_point + joint.type->points; ++i) s.joints.history[z(i)] = state.joints.history[z(i)];
-      if (!s.joints.crushed.empty()) s.joints.crushed[z(j)] = state.joints.crushed[z(j)];
-    }
-  }
-};
-
-// Ramps gravity and constant loads, then holds them until every block that does not fall is at rest. The blocks are damped at about the
-// critical value of the lowest mode, which Rayleigh's quotient of the sagging structure gives. The ramp acts as a downward ground
-// acceleration that decreases from g to zero. Blocks of `held` stay in place.
-void ramp(const Scene& scene, Prepared& p, const std::vector<std::uint8_t>& found, int threads) {
-  Model slow = p.model;
-  const double time = scene.analysis.ramp_time > 0 ? scene.analysis.ramp_time : ramp_seconds;
-  slow.grounds = {{make_table({0, time}, {1, 0}, true), p.model.gravity}};
-  slow.tilts.clear();
-  slow.prescribed_motions.clear();
-  for (auto& force_load : slow.force_loads) force_load.wave = make_table({0, time}, {0, value(force_load.wave, 0)}, true);
-  slow.damping.mass = 20 / time;
-  slow.damping_all = false;
-  slow.damping_explicit = false;
-  slow.analysis.levels = 1;
-  const BlockVec3 v = p.state.motion.v, L = p.state.motion.spin_momentum;
-  const double dt = p.state.time.dt;
-  p.state.motion.v.assign(v.size(), Vec3::Zero());
-  p.state.motion.spin_momentum.assign(v.size(), Vec3::Zero());
-  std::optional<Held> held;
-  if (!found.empty()) {
-    held.emplace(Held{found, p.state});
-    for (int b = 0; b < slow.nblock; ++b)
-      if (found[z(b)]) slow.kind[z(b)] = Kind::fixed;
-  }
-  find_islands(slow, p.state);
-  const Unrest unrest(slow, p.state);
-  Solver solver(slow, p.state, p.range, threads);
-  solver.advance_until([&] { return p.state.time.t >= time && (unrest.ended() || p.state.time.t >= ramp_limit * time); });
-  for (int b = 0; b < slow.nblock; ++b)
-    if (slow.kind[z(b)] == Kind::moving && (unrest.moves(b) || unrest.falls(b))) p.fallers.push_back(b);
-  if (held) held->give_back(p.model, p.state);
-  p.state.motion.v = v;
-  p.state.motion.spin_momentum = L;
-  p.state.motion.w.assign(p.state.motion.w.size(), Vec3::Zero());
-  find_islands(p.model, p.state);
-  const double target = p.state.time.dt_target;
-  p.state.time = TimeStep{};
-  p.state.time.dt = dt;
-  p.state.time.dt_target = target;
-  p.state.energy = Energy{};
-}
-
-// Blocks to hold during the ramp of the others: those in equilibrium, and those that no joint connects to the ground.
-std::vector<std::uint8_t> kept_still(const Prepared& p) {
-  std::vector<std::uint8_t> still = p.equilibrium.found;
-  for (int b = 0; b < p.model.nblock; ++b) still[z(b)] = still[z(b)] || !p.state.topology.grounded[z(b)];
-  return still;
-}
-
-void warn_of_fallers(Prepared& p) {
-  if (!p.fallers.empty()) p.warnings.push_back("not at rest under its own weight: " + names_of(p.model, p.fallers));
-}
-
-}  // namespace
-
-Metrics::Equilibrium equilibrium_metrics(const Prepared& p) {
-  return {p.equilibrium.iterations, p.equilibrium.given_up, p.equilibrium.unbalanced, p.equilibrium_wall};
-}
-
-void start_at_rest(const Scene& scene, Prepared& p, int threads) {
-  const auto began = std::chrono::steady_clock::now();
-  if (scene.analysis.start == "equilibrium" && starts_loaded(p.model) && p.model.njoint > 0) {
-    if (const std::string warning = warning_of_resting(p.model, p.state); !warning.empty()) p.warnings.push_back(warning);
-    for (int iteration = 0; iteration < 3; ++iteration) {  // arms of the loads rotate with their blocks
-      p.equilibrium = settle(p.model, p.state, constant_loads(p.model, p.state));
-      if (p.model.force_loads.empty()) break;
-    }
-    if (!p.equilibrium.converged) {
-      p.warnings.push_back("no equilibrium under gravity: " + p.equilibrium.why + "; there gravity is applied as a damped ramp instead");
-      ramp(scene, p, kept_still(p), threads);
-    }
-  } else if (scene.analysis.start == "ramp" && p.model.njoint > 0) {
-    ramp(scene, p, {}, threads);
-  }
-  p.equilibrium_wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
-  warn_of_fallers(p);
-  update_all_references(p.model, p.state);
-  return_free_memory();
-}
-
-double falling_share(const Prepared& p) {
-  double all = 0, falls = 0;
-  for (int b = 0; b < p.model.nblock; ++b)
-    if (p.model.kind[z(b)] == Kind::moving) all += p.model.mass[z(b)];
-  for (const int b : p.fallers) falls += p.model.mass[z(b)];
-  return all > 0 ? falls / all : 0;
-}
-
-void add_noise(Prepared& run, double reach, unsigned seed) {
-  if (reach == 0) return;
-  Random random{seed};
-  for (int b = 0; b < run.model.nblock; ++b) {
-    if (run.model.kind[z(b)] != Kind::moving) continue;
-    Vec3 shift, theta;
-    for (int i = 0; i < 3; ++i) shift[i] = random.within(reach);
-    for (int i = 0; i < 3; ++i) theta[i] = random.within(reach);
-    run.state.pose.u[z(b)] += shift;
-    run.state.pose.q[z(b)] = rotation(theta) * run.state.pose.q[z(b)];
-  }
-  update_all_references(run.model, run.state);
 }
 
 }  // namespace erbs::analysis

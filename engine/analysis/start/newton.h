@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "engine/analysis/equilibrium.h"
+#include "engine/analysis/start/equilibrium.h"
 #include "engine/solve/linear/joint_operator.h"
 #include "engine/solve/linear/two_level.h"
 

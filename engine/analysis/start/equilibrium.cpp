@@ -1,9 +1,9 @@
-#include "engine/analysis/equilibrium.h"
+#include "engine/analysis/start/equilibrium.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "engine/analysis/newton.h"
+#include "engine/analysis/start/newton.h"
 #include "engine/base/error.h"
 
 namespace erbs::analysis {

@@ -1,0 +1,112 @@
+#include "engine/analysis/start/at_rest.h"
+
+#include <algorithm>
+#include <chrono>
+#include <iterator>
+
+#include "engine/analysis/start/ramp.h"
+#include "engine/analysis/start/resting.h"
+#include "engine/base/random.h"
+#include "engine/joints/kinematics.h"
+
+namespace erbs::analysis {
+namespace {
+
+std::size_t z(int i) { return std::size_t(i); }
+
+std::vector<double> constant_loads(const Model& m, const State& s) {
+  std::vector<double> loads(6 * z(m.nblock) + 6, 0.0);
+  for (const auto& p : m.force_loads) {
+    const Vec3 f = value(p.wave, 0) * p.direction;
+    for (int i = 0; i < 3; ++i) loads[6 * z(p.block) + z(p.moment ? 3 + i : i)] += f[i];
+    const Vec3 moment = p.moment ? Vec3(Vec3::Zero()) : Vec3((s.pose.q[z(p.block)] * p.arm).cross(f));
+    for (int i = 0; i < 3; ++i) loads[6 * z(p.block) + 3 + z(i)] += moment[i];
+  }
+  return loads;
+}
+
+// Blocks to hold during the ramp of the others: those in equilibrium, and those that no joint connects to the ground.
+std::vector<std::uint8_t> kept_still(const Prepared& p) {
+  std::vector<std::uint8_t> still = p.equilibrium.found;
+  for (int b = 0; b < p.model.nblock; ++b) still[z(b)] = still[z(b)] || !p.state.topology.grounded[z(b)];
+  return still;
+}
+
+// Lowers what lies on the structure onto it. What slides or topples off does so in the run, and a structure that gives way under it falls
+// there: their weight comes at once.
+void lower_onto_structure(const Scene& scene, Prepared& p, Resting resting, int threads) {
+  constexpr int most_rounds = 4;
+  const State before = p.state;
+  const std::vector<int> all = resting.blocks();
+  for (int round = 1; resting.any(); ++round) {
+    std::vector<std::uint8_t> still(z(p.model.nblock));
+    for (int b = 0; b < p.model.nblock; ++b) still[z(b)] = !resting.lies()[z(b)] && !resting.bears()[z(b)];
+    const std::vector<int> left = lower_blocks(scene, p, resting.lies(), still, threads);
+    if (left.empty()) break;
+    p.state = before;
+    resting.drop(round < most_rounds ? left : resting.blocks());
+  }
+  std::vector<int> sudden;
+  std::ranges::set_difference(all, resting.blocks(), std::back_inserter(sudden));
+  if (resting.any()) p.notes.push_back("at rest on the structure without a joint: " + names_of(p.model, resting.blocks()));
+  if (!sudden.empty())
+    p.warnings.push_back(
+        "what lies on the structure without a joint does not come to rest on it, so that its weight comes upon it at once: " +
+        names_of(p.model, sudden));
+}
+
+void warn_of_fallers(Prepared& p) {
+  if (!p.fallers.empty()) p.warnings.push_back("not at rest under its own weight: " + names_of(p.model, p.fallers));
+}
+
+}  // namespace
+
+Metrics::Equilibrium equilibrium_metrics(const Prepared& p) {
+  return {p.equilibrium.iterations, p.equilibrium.given_up, p.equilibrium.unbalanced, p.equilibrium_wall};
+}
+
+void start_at_rest(const Scene& scene, Prepared& p, int threads) {
+  const auto began = std::chrono::steady_clock::now();
+  if (scene.analysis.start == "equilibrium" && starts_loaded(p.model) && p.model.njoint > 0) {
+    const Resting resting(p.model, p.state);
+    for (int iteration = 0; iteration < 3; ++iteration) {  // arms of the loads rotate with their blocks
+      p.equilibrium = settle(p.model, p.state, constant_loads(p.model, p.state));
+      if (p.model.force_loads.empty()) break;
+    }
+    if (!p.equilibrium.converged) {
+      p.warnings.push_back("no equilibrium under gravity: " + p.equilibrium.why + "; there gravity is applied as a damped ramp instead");
+      p.fallers = ramp_gravity(scene, p, kept_still(p), threads);
+    }
+    if (resting.any()) lower_onto_structure(scene, p, resting, threads);
+  } else if (scene.analysis.start == "ramp" && p.model.njoint > 0) {
+    p.fallers = ramp_gravity(scene, p, {}, threads);
+  }
+  p.equilibrium_wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
+  warn_of_fallers(p);
+  update_all_references(p.model, p.state);
+  return_free_memory();
+}
+
+double falling_share(const Prepared& p) {
+  double all = 0, falls = 0;
+  for (int b = 0; b < p.model.nblock; ++b)
+    if (p.model.kind[z(b)] == Kind::moving) all += p.model.mass[z(b)];
+  for (const int b : p.fallers) falls += p.model.mass[z(b)];
+  return all > 0 ? falls / all : 0;
+}
+
+void add_noise(Prepared& run, double reach, unsigned seed) {
+  if (reach == 0) return;
+  Random random{seed};
+  for (int b = 0; b < run.model.nblock; ++b) {
+    if (run.model.kind[z(b)] != Kind::moving) continue;
+    Vec3 shift, theta;
+    for (int i = 0; i < 3; ++i) shift[i] = random.within(reach);
+    for (int i = 0; i < 3; ++i) theta[i] = random.within(reach);
+    run.state.pose.u[z(b)] += shift;
+    run.state.pose.q[z(b)] = rotation(theta) * run.state.pose.q[z(b)];
+  }
+  update_all_references(run.model, run.state);
+}
+
+}  // namespace erbs::analysis

@@ -1,0 +1,169 @@
+#include "engine/analysis/start/ramp.h"
+
+#include <algorithm>
+#include <functional>
+#include <optional>
+
+#include "engine/base/units.h"
+#include "engine/solve/blocks/integrate.h"
+#include "engine/solve/blocks/islands.h"
+#include "engine/solve/step.h"
+
+namespace erbs::analysis {
+namespace {
+
+std::size_t z(int i) { return std::size_t(i); }
+
+constexpr double ramp_seconds = 0.2, ramp_limit = 25;  // s, default duration of the ramp; ramps until a moving block counts as falling
+constexpr double lowering_limit = 5, aside = 0.05;     // ramps until what still moves has left; of the thickness
+// Limit of rest: kinetic energy of a block over the work of its weight along the structure's height. A block under 1.001 times its friction
+// slides at 5e-4 m/s against the ramp's damping of 100 1/s. A structure of 1 m is at rest below 4e-4 m/s. A slower block falls by less than
+// a tenth of a millimetre during a shock.
+constexpr double rest_energy = 1e-8;
+
+// Blocks that still move, and blocks that fall: lower than at the start by half their thinnest extent, the criterion of `Collapse`.
+class Unrest {
+ public:
+  Unrest(const Model& m, const State& s) : model_(m), state_(s), start_(s.pose.u), down_(m.gravity.normalized()) {
+    double low = 1e300, high = -1e300;
+    for (int b = 0; b < m.nblock; ++b) {
+      if (m.kind[z(b)] != Kind::moving) continue;
+      const double at = down_.dot(m.rest[z(b)]), edge = m.smallest_edge[z(b)];
+      low = std::min(low, at - edge / 2), high = std::max(high, at + edge / 2);
+    }
+    const double g = m.gravity.norm() > 0 ? m.gravity.norm() : standard_g;  // for loads without gravity, its usual value
+    square_ = 2 * rest_energy * g * std::max(0.0, high - low);
+  }
+  bool falls(int b) const { return down_.dot(state_.pose.u[z(b)] - start_[z(b)]) > 0.5 * model_.thickness[z(b)]; }
+  bool leaves(int b) const {
+    const Vec3 way = state_.pose.u[z(b)] - start_[z(b)];
+    return falls(b) || (way - down_.dot(way) * down_).norm() > aside * model_.thickness[z(b)];
+  }
+  bool moves(int b) const {
+    const double rotation_energy = state_.motion.w[z(b)].dot(state_.motion.spin_momentum[z(b)]) / model_.mass[z(b)];
+    return state_.motion.v[z(b)].squaredNorm() + rotation_energy > square_;
+  }
+  // True if every block that does not fall is at rest.
+  bool ended() const {
+    return count([&](int b) { return moves(b) && !falls(b); }).empty();
+  }
+  std::vector<int> count(const std::function<bool(int b)>& is) const {
+    std::vector<int> out;
+    for (int b = 0; b < model_.nblock; ++b)
+      if (model_.kind[z(b)] == Kind::moving && is(b)) out.push_back(b);
+    return out;
+  }
+
+ private:
+  const Model& model_;
+  const State& state_;
+  const BlockVec3 start_;
+  const Vec3 down_;
+  double square_ = 0;  // m2/s2, square of the speed below which a block is at rest
+};
+
+// State that the ramp must not change: blocks already in equilibrium, and joints among such blocks and fixed ones only.
+struct Held {
+  std::vector<std::uint8_t> block;  // [nblock], empty for none
+  State state;
+
+  void give_back(const Model& m, State& s) const {
+    const auto holds = [&](int b) { return block[z(b)] || m.kind[z(b)] != Kind::moving; };
+    for (int b = 0; b < m.nblock; ++b)
+      if (block[z(b)]) s.pose.u[z(b)] = state.pose.u[z(b)], s.pose.q[z(b)] = state.pose.q[z(b)];
+    for (int j = 0; j < m.njoint; ++j) {
+      const Joint& joint = m.joint[z(j)];
+      if (!holds(joint.a) || !holds(joint.b)) continue;
+      s.joints.memory[z(j)] = state.joints.memory[z(j)];
+      for (int i = joint.first_point; i < joint.first_point + joint.type->points; ++i) s.joints.history[z(i)] = state.joints.history[z(i)];
+      if (!s.joints.crushed.empty()) s.joints.crushed[z(j)] = state.joints.crushed[z(j)];
+    }
+  }
+};
+
+double ramp_time(const Scene& scene) { return scene.analysis.ramp_time > 0 ? scene.analysis.ramp_time : ramp_seconds; }  // s
+
+Wave rising(double time, double value) { return make_table({0, time}, {0, value}, true); }
+Wave fading(double time) { return make_table({0, time}, {1, 0}, true); }
+
+// The model of the ramp: without what moves the ground, damped at about the critical value of the lowest mode, which Rayleigh's quotient of
+// the sagging structure gives. Blocks that are `still` are fixed.
+Model slow_model(const Model& m, double time, const std::vector<std::uint8_t>& still) {
+  Model slow = m;
+  slow.grounds.clear(), slow.tilts.clear(), slow.prescribed_motions.clear();
+  slow.damping.mass = 20 / time;
+  slow.damping_all = slow.damping_explicit = false;
+  slow.analysis.levels = 1;
+  for (std::size_t b = 0; b < still.size(); ++b)
+    if (still[b]) slow.kind[b] = Kind::fixed;
+  return slow;
+}
+
+// Steps of a model of the ramp from rest; velocities and time are given back, and the state that is still.
+void ramp(const Model& slow, Prepared& p, const std::vector<std::uint8_t>& still, int threads, const std::function<bool()>& ended) {
+  State& s = p.state;
+  const BlockVec3 v = s.motion.v, L = s.motion.spin_momentum;
+  const double dt = s.time.dt;
+  s.motion.v.assign(v.size(), Vec3::Zero());
+  s.motion.spin_momentum.assign(v.size(), Vec3::Zero());
+  std::optional<Held> held;
+  if (!still.empty()) held.emplace(Held{still, s});
+  find_islands(slow, s);
+  Solver solver(slow, s, p.range, threads);
+  solver.advance_until(ended);
+  if (held) held->give_back(p.model, s);
+  s.motion.v = v;
+  s.motion.spin_momentum = L;
+  s.motion.w.assign(s.motion.w.size(), Vec3::Zero());
+  find_islands(p.model, s);
+  const double target = s.time.dt_target;
+  s.time = TimeStep{};
+  s.time.dt = dt;
+  s.time.dt_target = target;
+  s.energy = Energy{};
+}
+
+}  // namespace
+
+// The weights come as if the ground accelerated downwards by g at first, and by nothing at last.
+std::vector<int> ramp_gravity(const Scene& scene, Prepared& p, const std::vector<std::uint8_t>& still, int threads) {
+  const double time = ramp_time(scene);
+  Model slow = slow_model(p.model, time, still);
+  slow.grounds = {{fading(time), p.model.gravity}};
+  for (auto& load : slow.force_loads) load.wave = rising(time, value(load.wave, 0));
+  const Unrest unrest(slow, p.state);
+  std::vector<int> restless;
+  ramp(slow, p, still, threads, [&] {
+    const double t = p.state.time.t;
+    const bool ended = t >= time && (unrest.ended() || t >= ramp_limit * time);
+    if (ended) restless = unrest.count([&](int b) { return unrest.moves(b) || unrest.falls(b); });
+    return ended;
+  });
+  return restless;
+}
+
+std::vector<int> lower_blocks(const Scene& scene, Prepared& p, const std::vector<std::uint8_t>& lowered,
+                              const std::vector<std::uint8_t>& still, int threads) {
+  const double time = ramp_time(scene);
+  Model slow = slow_model(p.model, time, still);
+  slow.analysis.sleep = false;
+  slow.damping_all = true;
+  for (auto& load : slow.force_loads) {
+    const double full = value(load.wave, 0);
+    load.wave = lowered[z(load.block)] ? rising(time, full) : make_table({0, time}, {full, full}, true);
+  }
+  for (int b = 0; b < slow.nblock; ++b)
+    if (lowered[z(b)])
+      slow.force_loads.push_back({fading(time), -slow.mass[z(b)] * weight_share(slow, b) * slow.gravity, b, Vec3::Zero(), false});
+  const Unrest unrest(slow, p.state);
+  std::vector<int> left;
+  ramp(slow, p, still, threads, [&] {
+    const double t = p.state.time.t;
+    const bool late = t >= lowering_limit * time;
+    left = unrest.count([&](int b) { return unrest.leaves(b) || (late && unrest.moves(b)); });
+    return late || !left.empty() || (t >= 2 * time && unrest.ended());
+  });
+  return left;
+}
+
+}  // namespace erbs::analysis
