@@ -60,7 +60,8 @@ for i, r in ipairs { 1, share } do
     between = { "base_" .. name, name },
   }
   recorder { name = name, quantity = "displacement", block = name, axis = "z" }
-  metric("sinks_" .. name, "", function(run) return (run.first(name .. "_uz_rel_m") - run.last(name .. "_uz_rel_m")) / (weight / area / kn) end)
+  -- Beyond its settlement on the intact bed.
+  metric("sinks_" .. name, "", function(run) return -run.last(name .. "_uz_rel_m") / (weight / area / kn) - 1 end)
   expect("metrics.sinks_" .. name, 1 / r - 1, { abs = 0.02 + 0.02 * (1 / r - 1), source = "W / A (1 / kn_cracked - 1 / kn)" })
   crushing = crushing + weight ^ 2 / area * (1 / r - 1) / kn / 2
 end

@@ -212,8 +212,9 @@ Json to_json(const Performance& p) {
 std::string performance_text(const Json& p) {
   std::string text = "performance point for " + p.value("spectrum", "");
   if (const std::string trouble = p.value("trouble", ""); !trouble.empty()) return text + ": none: " + trouble;
-  text += fmt::format("; Gamma {:.4g}, phi_top {:.4g} from the {} shape of {} mass nodes", p["gamma"].get<double>(),
-                      p["phi_top"].get<double>(), p.value("shape", ""), p.value("nodes", 0));
+  const int nodes = p.value("nodes", 0);
+  text += fmt::format("; Gamma {:.4g}, phi_top {:.4g} from the {} shape of {}", p["gamma"].get<double>(), p["phi_top"].get<double>(),
+                      p.value("shape", ""), nodes == 1 ? "one mass node" : fmt::format("{} mass nodes", nodes));
   for (const auto& [key, name] : {std::pair{"n2", "N2 (EN 1998-1 annex B)"}, {"mpp", "mass-proportional pushover"}}) {
     const Json& v = p[key];
     const auto number = [&](const char* what) { return v[what].get<double>(); };
