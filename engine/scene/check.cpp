@@ -300,7 +300,8 @@ void doubt_idle_keys(Report& report, const Scene& scene) {
     if (!idle.empty())
       report.say(a.place, "analysis: without solver = \"sequential\" there is no use for {}; leave it out", fmt::join(idle, ", "));
   }
-  if (a.ramp_time > 0 && a.start != "ramp")
+  const bool lies = std::ranges::any_of(scene.blocks, [](const Block& block) { return block.free; });  // on the structure, perhaps
+  if (a.ramp_time > 0 && (a.start == "rest" || (a.start == "equilibrium" && !lies)))
     report.say(a.place, "analysis: ramp_time = {:g} s is that of start = \"ramp\"; {}", a.ramp_time,
                a.start == "rest" ? "start = \"rest\" has no ramp: leave it out"
                                  : "start = \"equilibrium\" takes it only where there is no equilibrium");

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/analysis/start/elastic_push.h"
 #include "engine/base/error.h"
 #include "engine/base/units.h"
 

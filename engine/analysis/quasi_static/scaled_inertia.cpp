@@ -1,8 +1,7 @@
 #include "engine/analysis/quasi_static/scaled_inertia.h"
 
-#include <cmath>
+#include <algorithm>
 
-#include "engine/analysis/start/newton.h"
 #include "engine/base/symmetric.h"
 #include "engine/solve/linear/stiffness.h"
 
@@ -46,23 +45,6 @@ void scale_inertia(Model& m, const State& s) {
     m.inertia[z(b)] *= factor, m.inverse_inertia[z(b)] /= factor;
     m.gravity_factor[z(b)] = 1 / factor;
   }
-}
-
-ElasticPush elastic_push(const Model& m, const State& s, const std::vector<Vec3>& force) {
-  const Freedom f = grounded_freedoms(m, s);
-  if (f.count == 0) return {};
-  VecX load = VecX::Zero(f.count), x;
-  for (int b = 0; b < m.nblock; ++b)
-    if (f.first[z(b)] >= 0) load.segment<3>(f.first[z(b)]) = force[z(b)];
-  NewtonSteps steps(m, s, f, Linear::by_size);
-  if (!steps.intact(load, x) || !(x.dot(load) > 0)) return {};
-  double kinetic = 0;
-  for (int b = 0; b < m.nblock; ++b) {
-    if (f.first[z(b)] < 0) continue;
-    const Vec3 u = x.segment<3>(f.first[z(b)]), r = x.segment<3>(f.first[z(b)] + 3);
-    kinetic += m.mass[z(b)] * u.squaredNorm() + r.dot(m.inertia[z(b)] * r);
-  }
-  return {std::sqrt(x.dot(load) / kinetic), load, x};
 }
 
 }  // namespace erbs::analysis

@@ -36,12 +36,11 @@ std::vector<std::uint8_t> kept_still(const Prepared& p) {
 // there: their weight comes at once.
 void lower_onto_structure(const Scene& scene, Prepared& p, Resting resting, int threads) {
   constexpr int most_rounds = 4;
+  resting.carry(p.model, p.state);
   const State before = p.state;
   const std::vector<int> all = resting.blocks();
   for (int round = 1; resting.any(); ++round) {
-    std::vector<std::uint8_t> still(z(p.model.nblock));
-    for (int b = 0; b < p.model.nblock; ++b) still[z(b)] = !resting.lies()[z(b)] && !resting.bears()[z(b)];
-    const std::vector<int> left = lower_blocks(scene, p, resting.lies(), still, threads);
+    const std::vector<int> left = lower_blocks(scene, p, resting, threads);
     if (left.empty()) break;
     p.state = before;
     resting.drop(round < most_rounds ? left : resting.blocks());
@@ -51,7 +50,7 @@ void lower_onto_structure(const Scene& scene, Prepared& p, Resting resting, int 
   if (resting.any()) p.notes.push_back("at rest on the structure without a joint: " + names_of(p.model, resting.blocks()));
   if (!sudden.empty())
     p.warnings.push_back(
-        "what lies on the structure without a joint does not come to rest on it, so that its weight comes upon it at once: " +
+        "what lies on the structure without a joint does not come to rest on it and starts as it is built, its weight at once: " +
         names_of(p.model, sudden));
 }
 

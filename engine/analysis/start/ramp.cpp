@@ -2,8 +2,12 @@
 
 #include <algorithm>
 #include <functional>
+#include <iterator>
+#include <limits>
 #include <optional>
 
+#include "engine/analysis/start/elastic_push.h"
+#include "engine/base/system/interrupt.h"
 #include "engine/base/units.h"
 #include "engine/solve/blocks/integrate.h"
 #include "engine/solve/blocks/islands.h"
@@ -15,7 +19,13 @@ namespace {
 std::size_t z(int i) { return std::size_t(i); }
 
 constexpr double ramp_seconds = 0.2, ramp_limit = 25;  // s, default duration of the ramp; ramps until a moving block counts as falling
-constexpr double lowering_limit = 5, aside = 0.05;     // ramps until what still moves has left; of the thickness
+// Of lowering: least duration, in ramps; ramps in units of 1 / circular frequency of the lowest mode, critical at 20; unbalanced force over
+// weight at rest, and of what moves.
+constexpr double shortest = 2, lowering = 10, balanced = 1e-5, unbalanced = 1e-3;
+// A heap of its own may rock more slowly than the structure. So there are stages: the first lasts some ramps, in the next the damping is
+// smaller by a factor, and it lasts as much longer.
+constexpr double first_stage = 4, softer = 3;
+constexpr int stages = 3;
 // Limit of rest: kinetic energy of a block over the work of its weight along the structure's height. A block under 1.001 times its friction
 // slides at 5e-4 m/s against the ramp's damping of 100 1/s. A structure of 1 m is at rest below 4e-4 m/s. A slower block falls by less than
 // a tenth of a millimetre during a shock.
@@ -35,13 +45,11 @@ class Unrest {
     square_ = 2 * rest_energy * g * std::max(0.0, high - low);
   }
   bool falls(int b) const { return down_.dot(state_.pose.u[z(b)] - start_[z(b)]) > 0.5 * model_.thickness[z(b)]; }
-  bool leaves(int b) const {
-    const Vec3 way = state_.pose.u[z(b)] - start_[z(b)];
-    return falls(b) || (way - down_.dot(way) * down_).norm() > aside * model_.thickness[z(b)];
-  }
-  bool moves(int b) const {
-    const double rotation_energy = state_.motion.w[z(b)].dot(state_.motion.spin_momentum[z(b)]) / model_.mass[z(b)];
-    return state_.motion.v[z(b)].squaredNorm() + rotation_energy > square_;
+  bool moves(int b) const { return square(b) > square_; }
+  // The force that moves it against the damping, over its weight, exceeds `share`.
+  bool unbalanced(int b, double share) const {
+    const double speed = share * model_.gravity.norm() / model_.damping.mass;
+    return square(b) > speed * speed;
   }
   // True if every block that does not fall is at rest.
   bool ended() const {
@@ -51,6 +59,16 @@ class Unrest {
     std::vector<int> out;
     for (int b = 0; b < model_.nblock; ++b)
       if (model_.kind[z(b)] == Kind::moving && is(b)) out.push_back(b);
+    return out;
+  }
+
+  double square(int b) const {  // m2/s2, of the speed of translation and rotation
+    return state_.motion.v[z(b)].squaredNorm() + state_.motion.w[z(b)].dot(state_.motion.spin_momentum[z(b)]) / model_.mass[z(b)];
+  }
+  std::vector<double> squares() const {
+    std::vector<double> out(z(model_.nblock), 0);
+    for (int b = 0; b < model_.nblock; ++b)
+      if (model_.kind[z(b)] == Kind::moving) out[z(b)] = square(b);
     return out;
   }
 
@@ -99,6 +117,21 @@ Model slow_model(const Model& m, double time, const std::vector<std::uint8_t>& s
   return slow;
 }
 
+// 1/s, of what bears, with what lies on it: the lowest of Rayleigh's quotients of its elastic motions under three accelerations; 0 if it is
+// a mechanism.
+double lowest_frequency(const Prepared& p, const Resting& resting) {
+  const Model& m = p.model;
+  const std::vector<double> borne = resting.borne(m);
+  double lowest = std::numeric_limits<double>::infinity();
+  for (int axis = 0; axis < 3; ++axis) {
+    std::vector<Vec3> force(z(m.nblock), Vec3::Zero());
+    for (int b = 0; b < m.nblock; ++b)
+      if (resting.bears()[z(b)] != 0) force[z(b)][axis] = m.mass[z(b)] + borne[z(b)];
+    lowest = std::min(lowest, elastic_push(m, p.state, force, borne).frequency);
+  }
+  return lowest;
+}
+
 // Steps of a model of the ramp from rest; velocities and time are given back, and the state that is still.
 void ramp(const Model& slow, Prepared& p, const std::vector<std::uint8_t>& still, int threads, const std::function<bool()>& ended) {
   State& s = p.state;
@@ -110,7 +143,10 @@ void ramp(const Model& slow, Prepared& p, const std::vector<std::uint8_t>& still
   if (!still.empty()) held.emplace(Held{still, s});
   find_islands(slow, s);
   Solver solver(slow, s, p.range, threads);
-  solver.advance_until(ended);
+  solver.advance_until([&] {
+    if (is_interrupted()) throw Interrupted("interrupted while the structure came to rest, before the first step; nothing is written");
+    return ended();
+  });
   if (held) held->give_back(p.model, s);
   s.motion.v = v;
   s.motion.spin_momentum = L;
@@ -142,26 +178,45 @@ std::vector<int> ramp_gravity(const Scene& scene, Prepared& p, const std::vector
   return restless;
 }
 
-std::vector<int> lower_blocks(const Scene& scene, Prepared& p, const std::vector<std::uint8_t>& lowered,
-                              const std::vector<std::uint8_t>& still, int threads) {
-  const double time = ramp_time(scene);
-  Model slow = slow_model(p.model, time, still);
+std::vector<int> lower_blocks(const Scene& scene, Prepared& p, const Resting& resting, int threads) {
+  const Model& m = p.model;
+  const std::vector<std::uint8_t>& lowered = resting.lies();
+  std::vector<std::uint8_t> still(z(m.nblock));
+  for (int b = 0; b < m.nblock; ++b) still[z(b)] = lowered[z(b)] == 0 && resting.bears()[z(b)] == 0;
+  const double lowest = scene.analysis.ramp_time > 0 ? 0 : lowest_frequency(p, resting);
+  const double time = lowest > 0 ? std::max(ramp_time(scene), lowering / lowest) : ramp_time(scene);
+  Model slow = slow_model(m, time, still);
   slow.analysis.sleep = false;
   slow.damping_all = true;
   for (auto& load : slow.force_loads) {
     const double full = value(load.wave, 0);
-    load.wave = lowered[z(load.block)] ? rising(time, full) : make_table({0, time}, {full, full}, true);
+    load.wave = lowered[z(load.block)] != 0 ? rising(time, full) : make_table({0, time}, {full, full}, true);
   }
-  for (int b = 0; b < slow.nblock; ++b)
-    if (lowered[z(b)])
-      slow.force_loads.push_back({fading(time), -slow.mass[z(b)] * weight_share(slow, b) * slow.gravity, b, Vec3::Zero(), false});
+  for (int b = 0; b < m.nblock; ++b)
+    if (lowered[z(b)] != 0)
+      slow.force_loads.push_back({fading(time), -m.mass[z(b)] * weight_share(m, b) * m.gravity, b, Vec3::Zero(), false});
   const Unrest unrest(slow, p.state);
   std::vector<int> left;
+  std::vector<double> halfway;  // m2/s2, of each block in the middle of a stage
+  double began = 0, lasts = first_stage * time;
+  int stage = 1;
   ramp(slow, p, still, threads, [&] {
     const double t = p.state.time.t;
-    const bool late = t >= lowering_limit * time;
-    left = unrest.count([&](int b) { return unrest.leaves(b) || (late && unrest.moves(b)); });
-    return late || !left.empty() || (t >= 2 * time && unrest.ended());
+    if (t < shortest * time) return false;
+    left = resting.displaced(m, p.state);
+    const auto keeps_place = [&](int b) { return !std::ranges::binary_search(left, b); };
+    if (unrest.count([&](int b) { return keeps_place(b) && unrest.unbalanced(b, balanced); }).empty()) return true;
+    if (halfway.empty() && t >= began + 0.5 * lasts) halfway = unrest.squares();
+    if (t < began + lasts) return false;
+    // What comes to rest has become slower, what slides or topples has not.
+    const std::vector<int> moving = unrest.count([&](int b) { return keeps_place(b) && unrest.unbalanced(b, unbalanced); });
+    std::ranges::copy_if(moving, std::back_inserter(left),
+                         [&](int b) { return stage == stages || unrest.square(b) > 0.9 * halfway[z(b)]; });
+    if (!left.empty() || moving.empty()) return true;
+    began += lasts, lasts *= softer, ++stage;
+    slow.damping.mass /= softer;
+    halfway.clear();
+    return false;
   });
   return left;
 }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "engine/analysis/start/prepare.h"
+#include "engine/analysis/start/resting.h"
 
 namespace erbs::analysis {
 
@@ -12,10 +13,9 @@ namespace erbs::analysis {
 // move. `still`: blocks that stay in place, with the joints among them [nblock]; empty: none.
 std::vector<int> ramp_gravity(const Scene& scene, Prepared& run, const std::vector<std::uint8_t>& still, int threads);
 
-// Lowers blocks onto a structure at rest: their weights and loads come slowly, all others act in full. Ends when all is at rest, or at once
-// when a block leaves its place, by a twentieth of its thickness to a side or half of it down. Returns the blocks that left; the state is
-// of no use then. `lowered`: those blocks [nblock]. `still`: as above.
-std::vector<int> lower_blocks(const Scene& scene, Prepared& run, const std::vector<std::uint8_t>& lowered,
-                              const std::vector<std::uint8_t>& still, int threads);
+// Lowers what lies on a structure at rest onto it: its weight and its loads come slowly, all others act in full, and the structure is
+// damped at about the critical value of its lowest mode. Ends when all that keeps its place is at rest. Returns the blocks that have left
+// their place or still move after a while, those of the structure among them; the state is of no use then.
+std::vector<int> lower_blocks(const Scene& scene, Prepared& run, const Resting& resting, int threads);
 
 }  // namespace erbs::analysis

@@ -21,20 +21,31 @@ class Resting {
   const std::vector<std::uint8_t>& lies() const { return lies_; }
   // Belongs to an island of joined blocks that bears them [nblock].
   const std::vector<std::uint8_t>& bears() const { return bears_; }
+  // Moves what lies on the structure with the mean motion of what bears it since it was built, but not into it.
+  void carry(const Model& model, State& state) const;
+  // kg, of what lies on each block of the structure, in equal parts of each heap [nblock].
+  std::vector<double> borne(const Model& model) const;
+  // Those that have left their place on what they lie on, by a twentieth of their thickness.
+  std::vector<int> displaced(const Model& model, const State& state) const;
 
  private:
   // Two blocks that touch, at least one of them loose.
   struct Touch {
-    int a, b;
-    double down;  // of the common normal, which points from a to b
+    int upper, lower;  // the loose one, where one is joined
+    double down;       // of the common normal, which points from upper to lower
+    Vec3 at;           // m, of the upper in axes of the lower
   };
+  class Heaps;
   std::vector<Touch> touches(const Model& model, const State& state) const;
+  bool lies_on_structure(const Touch& touch) const;
+  Heaps heaps_of() const;
   void sort();
 
   std::vector<std::uint8_t> loose_, joined_;  // at rest [nblock]
   std::vector<std::uint8_t> lies_, bears_;    // [nblock]
   std::vector<std::uint8_t> gives_way_;       // by island [nblock]
   std::vector<int> island_;
+  BlockPoses built_;
   std::vector<Touch> touch_;
 };
 
