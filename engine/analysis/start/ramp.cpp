@@ -18,10 +18,10 @@ namespace {
 
 std::size_t z(int i) { return std::size_t(i); }
 
-constexpr double ramp_seconds = 0.2, ramp_limit = 25;  // s, default duration of the ramp; ramps until a moving block counts as falling
-// Of lowering: least duration, in ramps; ramps in units of 1 / circular frequency of the lowest mode, critical at 20; unbalanced force over
-// weight at rest, and of what moves.
-constexpr double shortest = 2, lowering = 10, balanced = 1e-5, unbalanced = 1e-3;
+// s, least duration of the ramp; in units of 1 / circular frequency, of slow structures; ramps until a moving block counts as falling.
+constexpr double ramp_seconds = 0.2, slow_ramp = 10, ramp_limit = 25;
+// Of lowering: least duration, in ramps; unbalanced force over weight at rest, and of what moves.
+constexpr double shortest = 2, balanced = 1e-5, unbalanced = 1e-3;
 // A heap of its own may rock more slowly than the structure. So there are stages: the first lasts some ramps, in the next the damping is
 // smaller by a factor, and it lasts as much longer.
 constexpr double first_stage = 4, softer = 3;
@@ -99,13 +99,10 @@ struct Held {
   }
 };
 
-double ramp_time(const Scene& scene) { return scene.analysis.ramp_time > 0 ? scene.analysis.ramp_time : ramp_seconds; }  // s
-
 Wave rising(double time, double value) { return make_table({0, time}, {0, value}, true); }
 Wave fading(double time) { return make_table({0, time}, {1, 0}, true); }
 
-// The model of the ramp: without what moves the ground, damped at about the critical value of the lowest mode, which Rayleigh's quotient of
-// the sagging structure gives. Blocks that are `still` are fixed.
+// The model of the ramp: without what moves the ground, damped. Blocks that are `still` are fixed.
 Model slow_model(const Model& m, double time, const std::vector<std::uint8_t>& still) {
   Model slow = m;
   slow.grounds.clear(), slow.tilts.clear(), slow.prescribed_motions.clear();
@@ -117,19 +114,20 @@ Model slow_model(const Model& m, double time, const std::vector<std::uint8_t>& s
   return slow;
 }
 
-// 1/s, of what bears, with what lies on it: the lowest of Rayleigh's quotients of its elastic motions under three accelerations; 0 if it is
-// a mechanism.
-double lowest_frequency(const Prepared& p, const Resting& resting) {
+// s, of the ramp: that of the scene, or the usual one, longer for a slow structure. Critical damping is 20 over it. The lowest frequency is
+// the least of Rayleigh's quotients of the elastic motions of the blocks that move under three accelerations, with what is `borne` (kg).
+double duration_of(const Scene& scene, const Prepared& p, const std::vector<std::uint8_t>& still, const std::vector<double>& borne) {
+  if (scene.analysis.ramp_time > 0) return scene.analysis.ramp_time;
   const Model& m = p.model;
-  const std::vector<double> borne = resting.borne(m);
-  double lowest = std::numeric_limits<double>::infinity();
+  double time = ramp_seconds;
   for (int axis = 0; axis < 3; ++axis) {
     std::vector<Vec3> force(z(m.nblock), Vec3::Zero());
     for (int b = 0; b < m.nblock; ++b)
-      if (resting.bears()[z(b)] != 0) force[z(b)][axis] = m.mass[z(b)] + borne[z(b)];
-    lowest = std::min(lowest, elastic_push(m, p.state, force, borne).frequency);
+      if (still.empty() || still[z(b)] == 0) force[z(b)][axis] = m.mass[z(b)] + (borne.empty() ? 0 : borne[z(b)]);
+    const double frequency = elastic_push(m, p.state, force, borne).frequency;
+    if (frequency > 0) time = std::max(time, slow_ramp / frequency);
   }
-  return lowest;
+  return time;
 }
 
 // Steps of a model of the ramp from rest; velocities and time are given back, and the state that is still.
@@ -163,7 +161,7 @@ void ramp(const Model& slow, Prepared& p, const std::vector<std::uint8_t>& still
 
 // The weights come as if the ground accelerated downwards by g at first, and by nothing at last.
 std::vector<int> ramp_gravity(const Scene& scene, Prepared& p, const std::vector<std::uint8_t>& still, int threads) {
-  const double time = ramp_time(scene);
+  const double time = duration_of(scene, p, still, {});
   Model slow = slow_model(p.model, time, still);
   slow.grounds = {{fading(time), p.model.gravity}};
   for (auto& load : slow.force_loads) load.wave = rising(time, value(load.wave, 0));
@@ -183,8 +181,7 @@ std::vector<int> lower_blocks(const Scene& scene, Prepared& p, const Resting& re
   const std::vector<std::uint8_t>& lowered = resting.lies();
   std::vector<std::uint8_t> still(z(m.nblock));
   for (int b = 0; b < m.nblock; ++b) still[z(b)] = lowered[z(b)] == 0 && resting.bears()[z(b)] == 0;
-  const double lowest = scene.analysis.ramp_time > 0 ? 0 : lowest_frequency(p, resting);
-  const double time = lowest > 0 ? std::max(ramp_time(scene), lowering / lowest) : ramp_time(scene);
+  const double time = duration_of(scene, p, still, resting.borne(m));
   Model slow = slow_model(m, time, still);
   slow.analysis.sleep = false;
   slow.damping_all = true;
