@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <iterator>
+#include <optional>
 
 #include "engine/analysis/start/ramp.h"
 #include "engine/analysis/start/resting.h"
@@ -25,11 +26,20 @@ std::vector<double> constant_loads(const Model& m, const State& s) {
   return loads;
 }
 
-// Blocks to hold during the ramp of the others: those in equilibrium, and those that no joint connects to the ground.
-std::vector<std::uint8_t> kept_still(const Prepared& p) {
+// Islands without equilibrium, and what loose blocks prop, load or tie to them: all of it as it was built at first. The others stay still:
+// those in equilibrium, and those that no joint connects to the ground. What has got its weight here does not count as resting any more.
+void ramp_the_rest(const Scene& scene, Prepared& p, Resting& resting, const std::optional<State>& built, int threads) {
   std::vector<std::uint8_t> still = p.equilibrium.found;
-  for (int b = 0; b < p.model.nblock; ++b) still[z(b)] = still[z(b)] || !p.state.topology.grounded[z(b)];
-  return still;
+  const std::vector<std::uint8_t> tied = resting.tied_to_unfound(p.equilibrium.found);
+  std::vector<int> loose;
+  for (int b = 0; b < p.model.nblock; ++b) {
+    const bool grounded = p.state.topology.grounded[z(b)] != 0;
+    still[z(b)] = (still[z(b)] != 0 || !grounded) && tied[z(b)] == 0;
+    if (tied[z(b)] != 0 && !grounded) loose.push_back(b);
+  }
+  if (built) Held{tied, *built}.give_back(p.model, p.state);
+  p.fallers = ramp_gravity(scene, p, still, threads, !loose.empty());
+  resting.drop(loose);
 }
 
 // Lowers what lies on the structure onto it. What slides or topples off does so in the run, and a structure that gives way under it falls
@@ -67,14 +77,16 @@ Metrics::Equilibrium equilibrium_metrics(const Prepared& p) {
 void start_at_rest(const Scene& scene, Prepared& p, int threads) {
   const auto began = std::chrono::steady_clock::now();
   if (scene.analysis.start == "equilibrium" && starts_loaded(p.model) && p.model.njoint > 0) {
-    const Resting resting(p.model, p.state);
+    Resting resting(p.model, p.state);
+    std::optional<State> built;
+    if (resting.touches_structure()) built = p.state;
     for (int iteration = 0; iteration < 3; ++iteration) {  // arms of the loads rotate with their blocks
       p.equilibrium = settle(p.model, p.state, constant_loads(p.model, p.state));
       if (p.model.force_loads.empty()) break;
     }
     if (!p.equilibrium.converged) {
       p.warnings.push_back("no equilibrium under gravity: " + p.equilibrium.why + "; there gravity is applied as a damped ramp instead");
-      p.fallers = ramp_gravity(scene, p, kept_still(p), threads);
+      ramp_the_rest(scene, p, resting, built, threads);
     }
     if (resting.any()) lower_onto_structure(scene, p, resting, threads);
   } else if (scene.analysis.start == "ramp" && p.model.njoint > 0) {

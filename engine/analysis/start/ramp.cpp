@@ -30,11 +30,12 @@ constexpr int stages = 3;
 // slides at 5e-4 m/s against the ramp's damping of 100 1/s. A structure of 1 m is at rest below 4e-4 m/s. A slower block falls by less than
 // a tenth of a millimetre during a shock.
 constexpr double rest_energy = 1e-8;
+constexpr double far_over = 0.05;  // rad
 
 // Blocks that still move, and blocks that fall: lower than at the start by half their thinnest extent, the criterion of `Collapse`.
 class Unrest {
  public:
-  Unrest(const Model& m, const State& s) : model_(m), state_(s), start_(s.pose.u), down_(m.gravity.normalized()) {
+  Unrest(const Model& m, const State& s) : model_(m), state_(s), start_(s.pose), down_(m.gravity.normalized()) {
     double low = 1e300, high = -1e300;
     for (int b = 0; b < m.nblock; ++b) {
       if (m.kind[z(b)] != Kind::moving) continue;
@@ -44,7 +45,9 @@ class Unrest {
     const double g = m.gravity.norm() > 0 ? m.gravity.norm() : standard_g;  // for loads without gravity, its usual value
     square_ = 2 * rest_energy * g * std::max(0.0, high - low);
   }
-  bool falls(int b) const { return down_.dot(state_.pose.u[z(b)] - start_[z(b)]) > 0.5 * model_.thickness[z(b)]; }
+  bool falls(int b) const { return down_.dot(state_.pose.u[z(b)] - start_.u[z(b)]) > 0.5 * model_.thickness[z(b)]; }
+  // Has toppled, to where it may lie at rest. Elastic structures lean by less.
+  bool toppled(int b) const { return Quat(state_.pose.q[z(b)]).angularDistance(Quat(start_.q[z(b)])) > far_over; }
   bool moves(int b) const { return square(b) > square_; }
   // The force that moves it against the damping, over its weight, exceeds `share`.
   bool unbalanced(int b, double share) const {
@@ -75,28 +78,9 @@ class Unrest {
  private:
   const Model& model_;
   const State& state_;
-  const BlockVec3 start_;
+  const BlockPoses start_;
   const Vec3 down_;
   double square_ = 0;  // m2/s2, square of the speed below which a block is at rest
-};
-
-// State that the ramp must not change: blocks already in equilibrium, and joints among such blocks and fixed ones only.
-struct Held {
-  std::vector<std::uint8_t> block;  // [nblock], empty for none
-  State state;
-
-  void give_back(const Model& m, State& s) const {
-    const auto holds = [&](int b) { return block[z(b)] || m.kind[z(b)] != Kind::moving; };
-    for (int b = 0; b < m.nblock; ++b)
-      if (block[z(b)]) s.pose.u[z(b)] = state.pose.u[z(b)], s.pose.q[z(b)] = state.pose.q[z(b)];
-    for (int j = 0; j < m.njoint; ++j) {
-      const Joint& joint = m.joint[z(j)];
-      if (!holds(joint.a) || !holds(joint.b)) continue;
-      s.joints.memory[z(j)] = state.joints.memory[z(j)];
-      for (int i = joint.first_point; i < joint.first_point + joint.type->points; ++i) s.joints.history[z(i)] = state.joints.history[z(i)];
-      if (!s.joints.crushed.empty()) s.joints.crushed[z(j)] = state.joints.crushed[z(j)];
-    }
-  }
 };
 
 Wave rising(double time, double value) { return make_table({0, time}, {0, value}, true); }
@@ -159,10 +143,24 @@ void ramp(const Model& slow, Prepared& p, const std::vector<std::uint8_t>& still
 
 }  // namespace
 
+void Held::give_back(const Model& m, State& s) const {
+  const auto holds = [&](int b) { return block[z(b)] || m.kind[z(b)] != Kind::moving; };
+  for (int b = 0; b < m.nblock; ++b)
+    if (block[z(b)]) s.pose.u[z(b)] = state.pose.u[z(b)], s.pose.q[z(b)] = state.pose.q[z(b)];
+  for (int j = 0; j < m.njoint; ++j) {
+    const Joint& joint = m.joint[z(j)];
+    if (!holds(joint.a) || !holds(joint.b)) continue;
+    s.joints.memory[z(j)] = state.joints.memory[z(j)];
+    for (int i = joint.first_point; i < joint.first_point + joint.type->points; ++i) s.joints.history[z(i)] = state.joints.history[z(i)];
+    if (!s.joints.crushed.empty()) s.joints.crushed[z(j)] = state.joints.crushed[z(j)];
+  }
+}
+
 // The weights come as if the ground accelerated downwards by g at first, and by nothing at last.
-std::vector<int> ramp_gravity(const Scene& scene, Prepared& p, const std::vector<std::uint8_t>& still, int threads) {
+std::vector<int> ramp_gravity(const Scene& scene, Prepared& p, const std::vector<std::uint8_t>& still, int threads, bool damp_loose) {
   const double time = duration_of(scene, p, still, {});
   Model slow = slow_model(p.model, time, still);
+  slow.damping_all = damp_loose;
   slow.grounds = {{fading(time), p.model.gravity}};
   for (auto& load : slow.force_loads) load.wave = rising(time, value(load.wave, 0));
   const Unrest unrest(slow, p.state);
@@ -170,7 +168,7 @@ std::vector<int> ramp_gravity(const Scene& scene, Prepared& p, const std::vector
   ramp(slow, p, still, threads, [&] {
     const double t = p.state.time.t;
     const bool ended = t >= time && (unrest.ended() || t >= ramp_limit * time);
-    if (ended) restless = unrest.count([&](int b) { return unrest.moves(b) || unrest.falls(b); });
+    if (ended) restless = unrest.count([&](int b) { return unrest.moves(b) || unrest.falls(b) || unrest.toppled(b); });
     return ended;
   });
   return restless;

@@ -9,9 +9,19 @@
 
 namespace erbs::analysis {
 
-// Ramps gravity and constant loads, then holds them until every block that does not fall is at rest. Returns the blocks that fall or still
-// move. `still`: blocks that stay in place, with the joints among them [nblock]; empty: none.
-std::vector<int> ramp_gravity(const Scene& scene, Prepared& run, const std::vector<std::uint8_t>& still, int threads);
+// Poses of some blocks, and what the joints among them and fixed ones remember.
+struct Held {
+  std::vector<std::uint8_t> block;  // [nblock]
+  State state;
+
+  void give_back(const Model& model, State& to) const;
+};
+
+// Ramps gravity and constant loads, then holds them until every block that does not fall is at rest. Returns the blocks that fall, have
+// toppled or still move. `still`: blocks that stay in place, with the joints among them [nblock]; empty: none. `damp_loose`: damps blocks
+// without a joint too.
+std::vector<int> ramp_gravity(const Scene& scene, Prepared& run, const std::vector<std::uint8_t>& still, int threads,
+                              bool damp_loose = false);
 
 // Lowers what lies on a structure at rest onto it: its weight and its loads come slowly, all others act in full, and the structure is
 // damped at about the critical value of its lowest mode. Ends when all that keeps its place is at rest. Returns the blocks that have left

@@ -95,26 +95,47 @@ Resting::Heaps Resting::heaps_of() const {
   return heaps;
 }
 
-bool Resting::lies_on_structure(const Touch& t) const {
-  return loose_[z(t.upper)] != 0 && joined_[z(t.lower)] != 0 && t.down > least_slope;
-}
+bool Resting::lies_on_structure(const Touch& t) const { return on_joined(t) && t.down > least_slope; }
 
 void Resting::sort() {
   const int n = int(loose_.size());
   Heaps heaps = heaps_of();
   std::vector<std::uint8_t> rests(z(n), 0), falls(z(n), 0);  // by heap
   std::vector<std::uint8_t> bears(z(n), 0);                  // by island
-  const auto on_structure = [&](const auto& visit) {         // visit(heap, island)
-    for (const Touch& t : touch_)
-      if (lies_on_structure(t)) visit(z(heaps.of(t.upper)), z(island_[z(t.lower)]));
-  };
-  on_structure([&](std::size_t heap, std::size_t island) { rests[heap] = 1, falls[heap] |= gives_way_[island]; });
-  on_structure([&](std::size_t heap, std::size_t island) { bears[island] |= falls[heap] == 0; });
+  for (const Touch& t : touch_) {
+    if (!on_joined(t)) continue;
+    const auto heap = z(heaps.of(t.upper));
+    rests[heap] |= lies_on_structure(t);
+    falls[heap] |= gives_way_[z(island_[z(t.lower)])];
+  }
+  for (const Touch& t : touch_)
+    if (const auto heap = z(heaps.of(t.upper)); on_joined(t)) bears[z(island_[z(t.lower)])] |= rests[heap] != 0 && falls[heap] == 0;
   for (int b = 0; b < n; ++b) {
     const auto heap = z(heaps.of(b));
     lies_[z(b)] = loose_[z(b)] != 0 && rests[heap] != 0 && falls[heap] == 0;
     bears_[z(b)] = joined_[z(b)] != 0 && bears[z(island_[z(b)])] != 0;
   }
+}
+
+std::vector<std::uint8_t> Resting::tied_to_unfound(const std::vector<std::uint8_t>& found) const {
+  const std::size_t n = loose_.size();
+  Heaps heaps = heaps_of();
+  std::vector<std::uint8_t> island(n, 0), heap(n, 0), out(n, 0);
+  for (std::size_t b = 0; b < n; ++b)
+    if (joined_[b] != 0 && found[b] == 0) island[z(island_[b])] = 1;
+  for (bool grows = true; grows;) {
+    grows = false;
+    for (const Touch& t : touch_) {
+      if (!on_joined(t)) continue;
+      std::uint8_t &of_heap = heap[z(heaps.of(t.upper))], &of_island = island[z(island_[z(t.lower)])];
+      if (of_heap == of_island) continue;
+      of_heap = of_island = 1;
+      grows = true;
+    }
+  }
+  for (std::size_t b = 0; b < n; ++b)
+    out[b] = loose_[b] != 0 ? heap[z(heaps.of(int(b)))] : std::uint8_t(joined_[b] != 0 && found[b] != 0 && island[z(island_[b])] != 0);
+  return out;
 }
 
 void Resting::carry(const Model& m, State& s) const {

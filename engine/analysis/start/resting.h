@@ -19,8 +19,12 @@ class Resting {
   std::vector<int> blocks() const;
   // Lies on the structure, or on or against what lies on it [nblock].
   const std::vector<std::uint8_t>& lies() const { return lies_; }
-  // Belongs to an island of joined blocks that bears them [nblock].
+  // Belongs to an island of joined blocks that bears them, or that they touch [nblock].
   const std::vector<std::uint8_t>& bears() const { return bears_; }
+  bool touches_structure() const { return !touch_.empty(); }
+  // Loose blocks that touch an island without equilibrium, and all that hangs together with it by loose blocks, but not what only joints
+  // connect [nblock]. `found`: as in `Equilibrium`.
+  std::vector<std::uint8_t> tied_to_unfound(const std::vector<std::uint8_t>& found) const;
   // Moves what lies on the structure with the mean motion of what bears it since it was built, but not into it.
   void carry(const Model& model, State& state) const;
   // kg, of what lies on each block of the structure, in equal parts of each heap [nblock].
@@ -37,6 +41,7 @@ class Resting {
   };
   class Heaps;
   std::vector<Touch> touches(const Model& model, const State& state) const;
+  bool on_joined(const Touch& touch) const { return loose_[std::size_t(touch.upper)] != 0 && joined_[std::size_t(touch.lower)] != 0; }
   bool lies_on_structure(const Touch& touch) const;
   Heaps heaps_of() const;
   void sort();
