@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <functional>
 #include <iterator>
-#include <limits>
 #include <optional>
 
 #include "engine/analysis/start/elastic_push.h"
@@ -93,25 +92,18 @@ Model slow_model(const Model& m, double time, const std::vector<std::uint8_t>& s
   slow.damping.mass = 20 / time;
   slow.damping_all = slow.damping_explicit = false;
   slow.analysis.levels = 1;
+  slow.analysis.sleep = false;  // time begins anew after it
   for (std::size_t b = 0; b < still.size(); ++b)
     if (still[b]) slow.kind[b] = Kind::fixed;
   return slow;
 }
 
-// s, of the ramp: that of the scene, or the usual one, longer for a slow structure. Critical damping is 20 over it. The lowest frequency is
-// the least of Rayleigh's quotients of the elastic motions of the blocks that move under three accelerations, with what is `borne` (kg).
+// s, of the ramp: that of the scene, or the usual one, longer where what moves is slow. Critical damping is 20 over it. `borne`: kg, of
+// what moves with a block besides its own mass [nblock]; empty: none.
 double duration_of(const Scene& scene, const Prepared& p, const std::vector<std::uint8_t>& still, const std::vector<double>& borne) {
   if (scene.analysis.ramp_time > 0) return scene.analysis.ramp_time;
-  const Model& m = p.model;
-  double time = ramp_seconds;
-  for (int axis = 0; axis < 3; ++axis) {
-    std::vector<Vec3> force(z(m.nblock), Vec3::Zero());
-    for (int b = 0; b < m.nblock; ++b)
-      if (still.empty() || still[z(b)] == 0) force[z(b)][axis] = m.mass[z(b)] + (borne.empty() ? 0 : borne[z(b)]);
-    const double frequency = elastic_push(m, p.state, force, borne).frequency;
-    if (frequency > 0) time = std::max(time, slow_ramp / frequency);
-  }
-  return time;
+  const double frequency = lowest_frequency(p.model, p.state, still, borne);
+  return frequency > 0 ? std::max(ramp_seconds, slow_ramp / frequency) : ramp_seconds;
 }
 
 // Steps of a model of the ramp from rest; velocities and time are given back, and the state that is still.
@@ -181,7 +173,6 @@ std::vector<int> lower_blocks(const Scene& scene, Prepared& p, const Resting& re
   for (int b = 0; b < m.nblock; ++b) still[z(b)] = lowered[z(b)] == 0 && resting.bears()[z(b)] == 0;
   const double time = duration_of(scene, p, still, resting.borne(m));
   Model slow = slow_model(m, time, still);
-  slow.analysis.sleep = false;
   slow.damping_all = true;
   for (auto& load : slow.force_loads) {
     const double full = value(load.wave, 0);

@@ -111,6 +111,17 @@ TEST_CASE("a structure that only a loose prop bears stands on it from the start"
   CHECK(moves(run) < 0.01);
 }
 
+TEST_CASE("nobody is asleep when a run begins", "[analysis][sleep]") {
+  // The ramp waits for a block that slides, while the cap lies still.
+  const std::string slide =
+      "transform{ at = { 0, 3, 1 }, rotation = { 0, 35*deg, 0 }, function() box{ name = 'slope', size = { 3, 1, .2 }, "
+      "at = { 0, 0, -.2 }, fixed = true } " +
+      loose("slides", ".3, .3, .3", "0, .3, 0") + "end } joint{ between = { 'loose', '' }, none = true } ";
+  const Prepared run = started(slide + loose("cap", ".3, .3, .1", "2, 0, .6") + "analysis{ start = 'ramp', sleep = true }");
+  CHECK(with(run.warnings, "not at rest under its own weight: slides") != "");
+  CHECK(run.state.sleep.count == 0);
+}
+
 TEST_CASE("what topples before the run is named, wherever it comes to lie", "[analysis]") {
   const Prepared run = started(
       "box{ name = 'tips', size = { 1, .3, .2 }, at = { 0, 0, .6 }, group = 'tips' } joint{ between = { 'tips', '' }, law = dry{ kn = "
