@@ -1,5 +1,6 @@
 // The program erbs: reads the command line, calls the verb, turns an error into an exit code.
 #include <malloc.h>
+#include <sys/prctl.h>
 
 #include <algorithm>
 #include <cctype>
@@ -127,6 +128,7 @@ int answer(CLI::App& app, CommandLine& line, int argc, char** argv) {
 
 int run_program(int argc, char** argv) {
   prepare_streams();
+  prctl(PR_SET_NAME, "erbs");          // for ps and top: what a study starts is found by way of /proc/self/exe
   mallopt(M_MMAP_THRESHOLD, 1 << 20);  // large arrays return to the system when freed, so that the heap does not fragment
   CommandLine line;
   CLI::App app("ERBS: collapse of masonry by rigid blocks and mortar springs", "erbs");

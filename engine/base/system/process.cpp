@@ -67,7 +67,7 @@ void redirect(const std::string& path, std::initializer_list<int> streams) {
 
 // In the child: becomes the program. Returns only if that fails. The program gets back the default handling of a closed pipe and of a
 // file's size limit.
-void become(const std::vector<char*>& words, const Launch& how, int input, int output) {
+void become(const char* program, const std::vector<char*>& words, const Launch& how, int input, int output) {
   std::signal(SIGPIPE, SIG_DFL);
   std::signal(SIGXFSZ, SIG_DFL);
   if (how.own_group) setpgid(0, 0);
@@ -87,16 +87,16 @@ void become(const std::vector<char*>& words, const Launch& how, int input, int o
   }
   if (how.heard) dup2(output, STDOUT_FILENO);
   if (!how.folder.empty() && chdir(how.folder.c_str()) != 0) return;
-  execvp(words[0], words.data());
+  execvp(program, words.data());
 }
 
 }  // namespace
 
 std::string own_path() {
   std::error_code trouble;
-  const std::string path = std::filesystem::read_symlink("/proc/self/exe", trouble).string();
-  // The link leads to the file itself: a study goes on with the program that has begun it.
-  if (path.ends_with(" (deleted)")) return fmt::format("/proc/{}/exe", getpid());
+  std::string path = std::filesystem::read_symlink("/proc/self/exe", trouble).string();
+  const std::string gone = " (deleted)";
+  if (path.ends_with(gone)) path.resize(path.size() - gone.size());
   return trouble ? "erbs" : path;
 }
 
@@ -118,6 +118,8 @@ Child start(const std::vector<std::string>& command, const Launch& how) {
   std::vector<char*> words;
   for (const auto& word : command) words.push_back(const_cast<char*>(word.c_str()));
   words.push_back(nullptr);
+  // The link leads to this very program, whatever lies at its path by now: a study goes on with what has begun it.
+  const char* const program = command.front() == own_path() ? "/proc/self/exe" : words[0];
   const auto refuse = [&](int number) {
     throw Error(fmt::format("the program {} cannot be started: {}{}{}", command.front(), std::strerror(number),
                             how.remedy.empty() ? "" : "; ", how.remedy));
@@ -127,7 +129,7 @@ Child start(const std::vector<std::string>& command, const Launch& how) {
   if (!failure.open() || (how.fed && !input.open()) || (how.heard && !output.open())) refuse(errno);
   const pid_t pid = fork_bound(how.bound_hard ? SIGKILL : SIGTERM);
   if (pid == 0) {
-    become(words, how, input.from, output.to);
+    become(program, words, how, input.from, output.to);
     const int number = errno;
     send(failure.to, &number, sizeof number);
     _exit(127);

@@ -7,7 +7,7 @@
 
 namespace erbs {
 
-std::string own_path();                   // starts this executable, also one that an update has replaced since
+std::string own_path();                   // of this executable; start() starts it even if an update has replaced its file since
 std::string own_folder();                 // where this executable lay when it was started
 bool can_start(const std::string& name);  // a path, or a name that PATH finds
 
