@@ -13,6 +13,7 @@
 #include "engine/analysis/snapshot.h"
 #include "engine/analysis/start/at_rest.h"
 #include "engine/analysis/verdict.h"
+#include "engine/base/count.h"
 #include "engine/record/folder/checkpoint.h"
 #include "engine/record/results/course.h"
 #include "engine/scene/effects.h"
@@ -21,8 +22,6 @@
 
 namespace erbs::analysis {
 namespace {
-
-std::size_t z(int i) { return std::size_t(i); }
 
 // Output written so far, so that a resumed run continues at the same rows. Rows and frames are due at whole multiples of their interval.
 struct OutputSchedule {
@@ -104,7 +103,7 @@ void Run::begin() {
     check_sizes(options_.directory, sizes, run_.state);
   } else {
     const BlockVec3 built = run_.state.pose.u;
-    start_at_rest(scene_, run_, options_.threads);
+    start_at_rest(scene_, run_, options_.threads, told_at_start(options_, born_));
     add_noise(run_, options_.noise, options_.noise_seed);
     add_noise(run_, options_.twin_noise, 2);
     watch(built);
@@ -149,7 +148,7 @@ void Run::watch(const BlockVec3& built) {
   for (const int b : run_.fallers) collapse_.start[z(b)] = built[z(b)].z();
   if (run_.fallers.empty() || falling_share(run_) < scene_.analysis.collapse_fraction) return;
   collapse_.collapsed = collapse_.under_gravity = true;
-  collapse_.mechanism = mechanism_of(run_.model, run_.state.pose, 0);
+  collapse_.mechanism = mechanism_of(run_.model, run_.fallen ? *run_.fallen : run_.state.pose, 0);
 }
 
 void Run::record(const Snapshot& now) {
@@ -351,6 +350,17 @@ Manifest manifest_of_run(const Scene& scene, const std::string& script, const Pr
   for (const Effect& e : effects_of(scene))
     (e.on ? manifest.effects_on : manifest.effects_off).push_back(e.on ? e.name + " (" + e.because + ")" : e.name);
   return manifest;
+}
+
+StartTold told_at_start(const RunOptions& options, double born) {
+  return [&options, born](const std::string& line) {
+    if (options.max_wall > 0 && seconds() - born > options.max_wall)
+      throw Error(
+          fmt::format("{:g} s were not enough for the structure to come to rest before the first step; nothing is written: raise "
+                      "--max-wall, or let the run begin as built, with analysis{{ start = \"rest\" }}",
+                      options.max_wall));
+    if (options.progress) options.progress({.wall = seconds() - born, .line = line, .starting = true});
+  };
 }
 
 void divide_solving(Metrics::Wall& wall, const Profile& profile) {

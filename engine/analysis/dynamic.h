@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "engine/analysis/start/ramp.h"
 #include "engine/record/folder/run_folder.h"
 #include "engine/record/results/metrics.h"
 #include "engine/scene/scene.h"
@@ -18,10 +19,11 @@ struct Progress {
   double wall = 0;             // s, of stepping until now
   long steps = 0;              // steps of this call
   int joints_broken = 0;
-  double residual = 0;     // relative, of the energy ledger
-  double dt = 0;           // s, of the present step
-  std::string limited_by;  // what keeps it from being longer
-  std::string line = {};   // a push has states instead of time: what to show
+  double residual = 0;          // relative, of the energy ledger
+  double dt = 0;                // s, of the present step
+  std::string limited_by = {};  // what keeps it from being longer
+  std::string line = {};        // what to show instead of time, of which the start and a push have none
+  bool starting = false;        // before the first step
 };
 
 struct RunOptions {
@@ -48,6 +50,10 @@ struct RunOutcome {
   std::vector<std::string> warnings;
   std::shared_ptr<const FolderLock> lock;  // while it is held, no other run writes to the folder
 };
+
+// What is told while a structure comes to rest before the first step. Throws Error once the run has lasted longer than it may: nothing is
+// written yet. `born`: when it began, by seconds().
+StartTold told_at_start(const RunOptions& options, double born);
 
 // Divides `solve`, less `search`, among its phases.
 void divide_solving(Metrics::Wall& wall, const Profile& profile);

@@ -43,14 +43,23 @@ ProgressPrinter::ProgressPrinter(bool quiet, bool json)
 ProgressPrinter::~ProgressPrinter() { end(); }
 
 void ProgressPrinter::show(const analysis::Progress& now) {
-  if (first_time_ < 0) {
+  if (first_time_ < 0 || (starting_ && !now.starting)) {  // the speed of a run is that after its start
+    begin_ = Clock::now();
     first_time_ = last_time_ = now.t;
     first_steps_ = last_steps_ = now.steps;
-    last_ = Clock::now();
+    last_ = begin_;
   }
+  starting_ = now.starting;
   const auto clock = Clock::now();
   if (quiet_ || clock < due_) return;
   due_ = clock + std::chrono::milliseconds(terminal_ ? 200 : 10000);
+  if (now.starting) {
+    if (json_) fmt::print(stderr, "{}\n", Json{{"start", now.line}, {"wall_s", now.wall}}.dump());
+    else fmt::print(stderr, "{}{}{}", terminal_ ? "\r\033[K" : "", now.line, terminal_ ? "" : "\n");
+    std::fflush(stderr);
+    open_ = terminal_;
+    return;
+  }
   const double wall = seconds(clock - last_), all = seconds(clock - begin_);
   const double speed = wall > 0 ? (now.t - last_time_) / wall : 0;
   const double rate = wall > 0 ? static_cast<double>(now.steps - last_steps_) / wall : 0;

@@ -18,7 +18,7 @@ class ProgressPrinter {
 
  private:
   using Clock = std::chrono::steady_clock;
-  bool quiet_, json_, terminal_, open_ = false;
+  bool quiet_, json_, terminal_, open_ = false, starting_ = false;
   Clock::time_point begin_, due_, last_;
   double first_time_ = -1, last_time_ = 0;  // s, simulated: a resumed run does not begin at zero
   double recent_ = -1;                      // simulated s per s, recent average; below zero: unknown

@@ -11,6 +11,7 @@
 #include "engine/analysis/resume.h"
 #include "engine/analysis/snapshot.h"
 #include "engine/analysis/start/at_rest.h"
+#include "engine/base/count.h"
 #include "engine/record/folder/checkpoint.h"
 #include "engine/record/folder/run_writer.h"
 #include "engine/record/results/collapse.h"
@@ -22,8 +23,6 @@ namespace {
 
 constexpr double beyond = 1.02;          // the fall: the load over the least one without equilibrium
 constexpr int frames_of_last_step = 10;  // on the way to collapse
-
-std::size_t z(int i) { return std::size_t(i); }
 
 class PushRun {
  public:
@@ -90,7 +89,7 @@ void PushRun::begin() {
     read_checkpoint(options_.directory, key_, run_.state, written, collapse_, so_far_);
     check_sizes(options_.directory, sizes, run_.state);
   } else {
-    start_at_rest(scene_, run_, options_.threads);
+    start_at_rest(scene_, run_, options_.threads, told_at_start(options_, born_));
     add_noise(run_, options_.noise, options_.noise_seed);
     add_noise(run_, options_.twin_noise, 2);
     collapse_ = watch_collapse(run_.model, run_.state.pose);
@@ -109,6 +108,7 @@ void PushRun::begin() {
   so_far_.curve_rows = curve_->rows(), so_far_.curve_sum = curve_->sum();
   for (const std::string& note : resume ? std::vector<std::string>{} : options_.notes) writer_->log(note);
   for (const std::string& w : run_.warnings) writer_->log("warning: " + w);
+  for (const std::string& note : run_.notes) writer_->log(note);
   out_.warnings = run_.warnings;
   setup_ = seconds() - born_;
   solve_start_ = last_save_ = seconds();

@@ -5,15 +5,13 @@
 #include <iterator>
 #include <optional>
 
-#include "engine/analysis/start/ramp.h"
 #include "engine/analysis/start/resting.h"
+#include "engine/base/count.h"
 #include "engine/base/random.h"
 #include "engine/joints/kinematics.h"
 
 namespace erbs::analysis {
 namespace {
-
-std::size_t z(int i) { return std::size_t(i); }
 
 std::vector<double> constant_loads(const Model& m, const State& s) {
   std::vector<double> loads(6 * z(m.nblock) + 6, 0.0);
@@ -28,7 +26,8 @@ std::vector<double> constant_loads(const Model& m, const State& s) {
 
 // Islands without equilibrium, and what loose blocks prop, load or tie to them: all of it as it was built at first. The others stay still:
 // those in equilibrium, and those that no joint connects to the ground. What has got its weight here does not count as resting any more.
-void ramp_the_rest(const Scene& scene, Prepared& p, Resting& resting, const std::optional<State>& built, int threads) {
+void ramp_the_rest(const Scene& scene, Prepared& p, Resting& resting, const std::optional<State>& built, int threads,
+                   const StartTold& told) {
   std::vector<std::uint8_t> still = p.equilibrium.found;
   const std::vector<std::uint8_t> tied = resting.tied_to_unfound(p.equilibrium.found);
   std::vector<int> loose;
@@ -38,19 +37,19 @@ void ramp_the_rest(const Scene& scene, Prepared& p, Resting& resting, const std:
     if (tied[z(b)] != 0 && !grounded) loose.push_back(b);
   }
   if (built) Held{tied, *built}.give_back(p.model, p.state);
-  p.fallers = ramp_gravity(scene, p, still, threads, !loose.empty());
+  p.fallers = ramp_gravity(scene, p, still, threads, !loose.empty(), told);
   resting.drop(loose);
 }
 
 // Lowers what lies on the structure onto it. What slides or topples off does so in the run, and a structure that gives way under it falls
 // there: their weight comes at once.
-void lower_onto_structure(const Scene& scene, Prepared& p, Resting resting, int threads) {
+void lower_onto_structure(const Scene& scene, Prepared& p, Resting resting, int threads, const StartTold& told) {
   constexpr int most_rounds = 4;
   resting.carry(p.model, p.state);
   const State before = p.state;
   const std::vector<int> all = resting.blocks();
   for (int round = 1; resting.any(); ++round) {
-    const std::vector<int> left = lower_blocks(scene, p, resting, threads);
+    const std::vector<int> left = lower_blocks(scene, p, resting, threads, told);
     if (left.empty()) break;
     p.state = before;
     resting.drop(round < most_rounds ? left : resting.blocks());
@@ -74,7 +73,7 @@ Metrics::Equilibrium equilibrium_metrics(const Prepared& p) {
   return {p.equilibrium.iterations, p.equilibrium.given_up, p.equilibrium.unbalanced, p.equilibrium_wall};
 }
 
-void start_at_rest(const Scene& scene, Prepared& p, int threads) {
+void start_at_rest(const Scene& scene, Prepared& p, int threads, const StartTold& told) {
   const auto began = std::chrono::steady_clock::now();
   if (scene.analysis.start == "equilibrium" && starts_loaded(p.model) && p.model.njoint > 0) {
     Resting resting(p.model, p.state);
@@ -86,11 +85,11 @@ void start_at_rest(const Scene& scene, Prepared& p, int threads) {
     }
     if (!p.equilibrium.converged) {
       p.warnings.push_back("no equilibrium under gravity: " + p.equilibrium.why + "; there gravity is applied as a damped ramp instead");
-      ramp_the_rest(scene, p, resting, built, threads);
+      ramp_the_rest(scene, p, resting, built, threads, told);
     }
-    if (resting.any()) lower_onto_structure(scene, p, resting, threads);
+    if (resting.any()) lower_onto_structure(scene, p, resting, threads, told);
   } else if (scene.analysis.start == "ramp" && p.model.njoint > 0) {
-    p.fallers = ramp_gravity(scene, p, {}, threads);
+    p.fallers = ramp_gravity(scene, p, {}, threads, false, told);
   }
   p.equilibrium_wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
   warn_of_fallers(p);

@@ -1,6 +1,6 @@
 // The start of a run: the structure at rest under gravity and constant loads, with what lies on it.
 #pragma once
-#include "engine/analysis/start/prepare.h"
+#include "engine/analysis/start/ramp.h"
 #include "engine/record/results/metrics.h"
 
 namespace erbs::analysis {
@@ -8,7 +8,7 @@ namespace erbs::analysis {
 // Applies gravity and constant loads as `Analysis::start` says. Islands without an equilibrium by Newton's method get a damped ramp
 // instead; others do not. What lies on the structure without a joint is lowered onto it (resting.h). Velocities stay as the scene gives
 // them.
-void start_at_rest(const Scene& scene, Prepared& run, int threads);
+void start_at_rest(const Scene& scene, Prepared& run, int threads, const StartTold& told = {});
 
 // The start in metrics.json and manifest.json.
 Metrics::Equilibrium equilibrium_metrics(const Prepared& run);

@@ -4,11 +4,10 @@
 #include <cmath>
 
 #include "engine/analysis/start/newton.h"
+#include "engine/base/count.h"
 
 namespace erbs::analysis {
 namespace {
-
-std::size_t z(int i) { return std::size_t(i); }
 
 double mass_of(const Model& m, const std::vector<double>& borne, int b) { return m.mass[z(b)] + (borne.empty() ? 0 : borne[z(b)]); }
 

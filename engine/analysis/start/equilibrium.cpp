@@ -4,12 +4,11 @@
 #include <cmath>
 
 #include "engine/analysis/start/newton.h"
+#include "engine/base/count.h"
 #include "engine/base/error.h"
 
 namespace erbs::analysis {
 namespace {
-
-std::size_t z(int i) { return std::size_t(i); }
 
 VecX applied(const Model& m, const Freedom& f, const std::vector<double>& loads) {
   VecX out = VecX::Zero(f.count);
@@ -98,7 +97,7 @@ void search(Island& i, double work) {
   else i.part = i.low + (i.high - i.low) * std::clamp(i.low_work / (i.low_work - i.high_work), 1e-9, 0.9);
 }
 
-constexpr double target = 1e-11, accepted = 1e-8;  // relative to the largest load of the island
+constexpr double aimed_at = 1e-11, accepted = 1e-8;  // relative to the largest load of the island
 constexpr double first_brake = 0.1;
 
 // Newton's method on all islands of a `Freedom` at once.
@@ -120,7 +119,7 @@ class Search {
     for (Island& i : islands_) {
       balance(f_, residual_, i);
       i.best = i.unbalanced;
-      if (i.unbalanced <= target) i.now = Island::Now::found;
+      if (i.unbalanced <= aimed_at) i.now = Island::Now::found;
     }
     while (std::any_of(islands_.begin(), islands_.end(), [](const Island& i) { return i.sought(); })) {
       VecX step;
@@ -203,7 +202,7 @@ class Search {
               : i.part == 0    ? 4 * i.brake
                                : std::min(10.0, i.brake * std::clamp(i.unbalanced / earlier, 0.1, 2.0));
     i.stuck = i.unbalanced < 0.5 * i.best ? 0 : i.stuck + 1;
-    if (i.unbalanced <= target) {
+    if (i.unbalanced <= aimed_at) {
       i.now = Island::Now::found;
     } else if (i.best < accepted && i.stuck > 0) {  // only round-off remains
       if (i.unbalanced > i.best) put_back(s_, from, i), i.unbalanced = earlier;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/base/count.h"
 #include "engine/joints/kinematics.h"
 #include "engine/joints/response.h"
 #include "engine/solve/linear/stiffness.h"
@@ -19,8 +20,6 @@ constexpr int most_iterations = 3000;
 // matrix.
 constexpr double factored_tolerance = 1e-6;
 constexpr int factored_iterations = 60;
-
-std::size_t z(int i) { return std::size_t(i); }
 
 // Tangent of a joint that is not intact, by central differences of its law. The difference step is a small fraction of the joint's
 // movement, so the difference stays on the active branch. The tangent is not symmetric, since friction follows the pressure. Without that

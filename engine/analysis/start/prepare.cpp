@@ -7,6 +7,7 @@
 
 #include "engine/analysis/start/load_warnings.h"
 #include "engine/analysis/start/resting.h"
+#include "engine/base/count.h"
 #include "engine/base/random.h"
 #include "engine/base/units.h"
 #include "engine/contact/overlap/shape.h"
@@ -18,8 +19,6 @@
 
 namespace erbs::analysis {
 namespace {
-
-std::size_t z(int i) { return std::size_t(i); }
 
 // Time-step bound for blocks that meet only in contact: the block on the contact spring of one face, sqrt(2 m / K) as for joints. A factor
 // 4 on K covers rocking: 1 + 3 for a thin brick on its face.
@@ -176,7 +175,7 @@ void check_shapes(const Scene& scene, const Model& m) {
 
 Prepared prepare(const Scene& scene, bool allow_unstable) {
   Built built = build(scene);
-  Prepared p{std::move(built.model), std::move(built.state), {}, {}, {}, {}, 0, {}, std::move(built.warnings), std::move(built.notes)};
+  Prepared p{std::move(built.model), std::move(built.state), {}, {}, {}, {}, 0, {}, {}, std::move(built.warnings), std::move(built.notes)};
   if (scene.push.quasi_static()) p.model.analysis.levels = 1;
   check_shapes(scene, p.model);
   find_islands(p.model, p.state);

@@ -1,5 +1,7 @@
 // From a scene to a model with its state as built: time step with its reason, and what the model alone shows to be wrong.
 #pragma once
+#include <optional>
+
 #include "engine/analysis/start/equilibrium.h"
 #include "engine/model/build/build.h"
 #include "engine/solve/contacts/time_step_bound.h"
@@ -14,8 +16,9 @@ struct Prepared {
   StepRange range;
   std::string dt_rule;  // the rule that gave dt, in words
   Equilibrium equilibrium;
-  double equilibrium_wall = 0;  // s
-  std::vector<int> fallers;     // blocks still moving after a damped ramp of gravity
+  double equilibrium_wall = 0;       // s
+  std::vector<int> fallers;          // blocks that a damped ramp of gravity does not bring to rest ...
+  std::optional<BlockPoses> fallen;  // ... and where it has left them: the run begins before they have gone there
   std::vector<std::string> warnings;
   std::vector<std::string> notes;  // details of a summary warning, for log.txt
 };

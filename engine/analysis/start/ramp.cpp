@@ -1,11 +1,14 @@
 #include "engine/analysis/start/ramp.h"
 
 #include <algorithm>
+#include <chrono>
 #include <functional>
 #include <iterator>
 #include <optional>
 
 #include "engine/analysis/start/elastic_push.h"
+#include "engine/base/count.h"
+#include "engine/base/error.h"
 #include "engine/base/system/interrupt.h"
 #include "engine/base/units.h"
 #include "engine/solve/blocks/integrate.h"
@@ -14,8 +17,6 @@
 
 namespace erbs::analysis {
 namespace {
-
-std::size_t z(int i) { return std::size_t(i); }
 
 // s, least duration of the ramp; in units of 1 / circular frequency, of slow structures; ramps until a moving block counts as falling.
 constexpr double ramp_seconds = 0.2, slow_ramp = 10, ramp_limit = 25;
@@ -30,6 +31,8 @@ constexpr int stages = 3;
 // a tenth of a millimetre during a shock.
 constexpr double rest_energy = 1e-8;
 constexpr double far_over = 0.05;  // rad
+constexpr double leaving = 0.05;   // of the thickness of a block, or rad: less than it moves while it stands
+constexpr double settled = 2;      // ramps, after which what stands is nearly at rest
 
 // Blocks that still move, and blocks that fall: lower than at the start by half their thinnest extent, the criterion of `Collapse`.
 class Unrest {
@@ -44,9 +47,14 @@ class Unrest {
     const double g = m.gravity.norm() > 0 ? m.gravity.norm() : standard_g;  // for loads without gravity, its usual value
     square_ = 2 * rest_energy * g * std::max(0.0, high - low);
   }
-  bool falls(int b) const { return down_.dot(state_.pose.u[z(b)] - start_.u[z(b)]) > 0.5 * model_.thickness[z(b)]; }
+  bool falls(int b) const { return sunk(b) > 0.5 * model_.thickness[z(b)]; }
   // Has toppled, to where it may lie at rest. Elastic structures lean by less.
-  bool toppled(int b) const { return Quat(state_.pose.q[z(b)]).angularDistance(Quat(start_.q[z(b)])) > far_over; }
+  bool toppled(int b) const { return tilt(b) > far_over; }
+  bool any_leaves() const {
+    for (int b = 0; b < model_.nblock; ++b)
+      if (model_.kind[z(b)] == Kind::moving && (sunk(b) > leaving * model_.thickness[z(b)] || tilt(b) > leaving)) return true;
+    return false;
+  }
   bool moves(int b) const { return square(b) > square_; }
   // The force that moves it against the damping, over its weight, exceeds `share`.
   bool unbalanced(int b, double share) const {
@@ -75,6 +83,9 @@ class Unrest {
   }
 
  private:
+  double sunk(int b) const { return down_.dot(state_.pose.u[z(b)] - start_.u[z(b)]); }                  // m
+  double tilt(int b) const { return Quat(state_.pose.q[z(b)]).angularDistance(Quat(start_.q[z(b)])); }  // rad
+
   const Model& model_;
   const State& state_;
   const BlockPoses start_;
@@ -106,31 +117,89 @@ double duration_of(const Scene& scene, const Prepared& p, const std::vector<std:
   return frequency > 0 ? std::max(ramp_seconds, slow_ramp / frequency) : ramp_seconds;
 }
 
-// Steps of a model of the ramp from rest; velocities and time are given back, and the state that is still.
-void ramp(const Model& slow, Prepared& p, const std::vector<std::uint8_t>& still, int threads, const std::function<bool()>& ended) {
+// What a ramp leaves of the state: poses and what joints and contacts remember. Velocities and time are those of before it.
+void begin_anew(const Model& m, const State& before, State& s) {
+  s.motion.v = before.motion.v, s.motion.spin_momentum = before.motion.spin_momentum;
+  s.motion.w.assign(s.motion.w.size(), Vec3::Zero());
+  s.time = TimeStep{};
+  s.time.dt = before.time.dt, s.time.dt_target = before.time.dt_target;
+  s.energy = Energy{};
+  s.contacts.list.bound_updated_at = 0;
+  find_islands(m, s);
+}
+
+// Steps of a model of the ramp from rest; velocities and time are given back, and the state that is still. `what` happens, until `most` s
+// at the latest.
+void ramp(const Model& slow, Prepared& p, const std::vector<std::uint8_t>& still, int threads, const StartTold& told,
+          const std::string& what, double most, const std::function<bool()>& ended) {
   State& s = p.state;
-  const BlockVec3 v = s.motion.v, L = s.motion.spin_momentum;
-  const double dt = s.time.dt;
-  s.motion.v.assign(v.size(), Vec3::Zero());
-  s.motion.spin_momentum.assign(v.size(), Vec3::Zero());
-  std::optional<Held> held;
-  if (!still.empty()) held.emplace(Held{still, s});
+  const State before = s;
+  s.motion.v.assign(s.motion.v.size(), Vec3::Zero());
+  s.motion.spin_momentum.assign(s.motion.v.size(), Vec3::Zero());
   find_islands(slow, s);
   Solver solver(slow, s, p.range, threads);
+  using Clock = std::chrono::steady_clock;
+  Clock::time_point due = Clock::now();
   solver.advance_until([&] {
     if (is_interrupted()) throw Interrupted("interrupted while the structure came to rest, before the first step; nothing is written");
+    if (told && Clock::now() >= due) {
+      told(fmt::format("before the run, {}: {:.2f} of at most {:.3g} s", what, s.time.t, most));
+      due = Clock::now() + std::chrono::milliseconds(100);
+    }
     return ended();
   });
-  if (held) held->give_back(p.model, s);
-  s.motion.v = v;
-  s.motion.spin_momentum = L;
-  s.motion.w.assign(s.motion.w.size(), Vec3::Zero());
-  find_islands(p.model, s);
-  const double target = s.time.dt_target;
-  s.time = TimeStep{};
-  s.time.dt = dt;
-  s.time.dt_target = target;
-  s.energy = Energy{};
+  if (!still.empty()) Held{still, before}.give_back(p.model, s);
+  begin_anew(p.model, before, s);
+}
+
+// Blocks of the islands that hold one of `some`.
+std::vector<std::uint8_t> islands_of(const Model& m, const Topology& topology, const std::vector<int>& some) {
+  std::vector<std::uint8_t> named(z(m.nblock)), out(z(m.nblock));
+  for (const int b : some) named[z(topology.island[z(b)])] = 1;
+  for (int b = 0; b < m.nblock; ++b) out[z(b)] = named[z(topology.island[z(b)])];
+  return out;
+}
+
+// ramp_gravity() from a share of the weights on. They come as if the ground accelerated downwards by g at first, and by nothing at last.
+// What falls begins the run before it has left its place, under its whole weight if it stands for so long: the fall belongs to the run. All
+// else comes to rest without it.
+std::vector<int> ramp_from(double share, const Scene& scene, Prepared& p, const std::vector<std::uint8_t>& still, int threads,
+                           bool damp_loose, const StartTold& told) {
+  const double time = duration_of(scene, p, still, {});
+  Model slow = slow_model(p.model, time, still);
+  slow.damping_all = damp_loose;
+  slow.grounds = {{make_table({0, time}, {1 - share, 0}, true), p.model.gravity}};
+  for (auto& load : slow.force_loads) {
+    const double full = value(load.wave, 0);
+    load.wave = make_table({0, time}, {share * full, full}, true);
+  }
+  const State before = p.state;
+  const Unrest unrest(slow, p.state);
+  std::vector<int> restless;
+  std::optional<State> early;
+  double reached = 0;
+  ramp(slow, p, still, threads, told, "gravity comes slowly", ramp_limit * time, [&] {
+    const double t = p.state.time.t;
+    if (!early && (t >= settled * time || unrest.any_leaves())) early = p.state, reached = std::min(1.0, share + (1 - share) * t / time);
+    const bool ended = t >= time && (unrest.ended() || t >= ramp_limit * time);
+    if (ended) restless = unrest.count([&](int b) { return unrest.moves(b) || unrest.falls(b) || unrest.toppled(b); });
+    return ended;
+  });
+  if (restless.empty() || !early) return restless;
+  const std::vector<std::uint8_t> gone = islands_of(p.model, before.topology, restless);
+  std::vector<std::uint8_t> rest = still;
+  rest.resize(z(p.model.nblock));
+  bool others = false;
+  if (!p.fallen) p.fallen = p.state.pose;
+  for (int b = 0; b < p.model.nblock; ++b)
+    if (gone[z(b)] != 0) rest[z(b)] = 1, p.fallen->u[z(b)] = p.state.pose.u[z(b)], p.fallen->q[z(b)] = p.state.pose.q[z(b)];
+    else others |= rest[z(b)] == 0 && p.model.kind[z(b)] == Kind::moving;
+  p.state = std::move(*early);
+  if (!still.empty()) Held{still, before}.give_back(p.model, p.state);
+  begin_anew(p.model, before, p.state);
+  if (others) std::ranges::copy(ramp_from(reached, scene, p, rest, threads, damp_loose, told), std::back_inserter(restless));
+  std::ranges::sort(restless);
+  return restless;
 }
 
 }  // namespace
@@ -148,25 +217,12 @@ void Held::give_back(const Model& m, State& s) const {
   }
 }
 
-// The weights come as if the ground accelerated downwards by g at first, and by nothing at last.
-std::vector<int> ramp_gravity(const Scene& scene, Prepared& p, const std::vector<std::uint8_t>& still, int threads, bool damp_loose) {
-  const double time = duration_of(scene, p, still, {});
-  Model slow = slow_model(p.model, time, still);
-  slow.damping_all = damp_loose;
-  slow.grounds = {{fading(time), p.model.gravity}};
-  for (auto& load : slow.force_loads) load.wave = rising(time, value(load.wave, 0));
-  const Unrest unrest(slow, p.state);
-  std::vector<int> restless;
-  ramp(slow, p, still, threads, [&] {
-    const double t = p.state.time.t;
-    const bool ended = t >= time && (unrest.ended() || t >= ramp_limit * time);
-    if (ended) restless = unrest.count([&](int b) { return unrest.moves(b) || unrest.falls(b) || unrest.toppled(b); });
-    return ended;
-  });
-  return restless;
+std::vector<int> ramp_gravity(const Scene& scene, Prepared& p, const std::vector<std::uint8_t>& still, int threads, bool damp_loose,
+                              const StartTold& told) {
+  return ramp_from(0, scene, p, still, threads, damp_loose, told);
 }
 
-std::vector<int> lower_blocks(const Scene& scene, Prepared& p, const Resting& resting, int threads) {
+std::vector<int> lower_blocks(const Scene& scene, Prepared& p, const Resting& resting, int threads, const StartTold& told) {
   const Model& m = p.model;
   const std::vector<std::uint8_t>& lowered = resting.lies();
   std::vector<std::uint8_t> still(z(m.nblock));
@@ -186,7 +242,9 @@ std::vector<int> lower_blocks(const Scene& scene, Prepared& p, const Resting& re
   std::vector<double> halfway;  // m2/s2, of each block in the middle of a stage
   double began = 0, lasts = first_stage * time;
   int stage = 1;
-  ramp(slow, p, still, threads, [&] {
+  const std::string what = fmt::format("blocks without a joint are lowered onto the structure ({})", resting.blocks().size());
+  const double most = lasts * (1 + softer + softer * softer);
+  ramp(slow, p, still, threads, told, what, most, [&] {
     const double t = p.state.time.t;
     if (t < shortest * time) return false;
     left = resting.displaced(m, p.state);

@@ -2,6 +2,8 @@
 // the contacts that bear.
 #pragma once
 #include <cstdint>
+#include <functional>
+#include <string>
 #include <vector>
 
 #include "engine/analysis/start/prepare.h"
@@ -17,15 +19,18 @@ struct Held {
   void give_back(const Model& model, State& to) const;
 };
 
+// Hears about ten times a second what the start has come to. May throw to end it.
+using StartTold = std::function<void(const std::string& line)>;
+
 // Ramps gravity and constant loads, then holds them until every block that does not fall is at rest. Returns the blocks that fall, have
 // toppled or still move. `still`: blocks that stay in place, with the joints among them [nblock]; empty: none. `damp_loose`: damps blocks
 // without a joint too.
 std::vector<int> ramp_gravity(const Scene& scene, Prepared& run, const std::vector<std::uint8_t>& still, int threads,
-                              bool damp_loose = false);
+                              bool damp_loose = false, const StartTold& told = {});
 
 // Lowers what lies on a structure at rest onto it: its weight and its loads come slowly, all others act in full, and the structure is
 // damped at about the critical value of its lowest mode. Ends when all that keeps its place is at rest. Returns the blocks that have left
 // their place or still move after a while, those of the structure among them; the state is of no use then.
-std::vector<int> lower_blocks(const Scene& scene, Prepared& run, const Resting& resting, int threads);
+std::vector<int> lower_blocks(const Scene& scene, Prepared& run, const Resting& resting, int threads, const StartTold& told = {});
 
 }  // namespace erbs::analysis

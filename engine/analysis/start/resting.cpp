@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "engine/base/count.h"
 #include "engine/base/error.h"
 #include "engine/base/rotation.h"
 #include "engine/contact/broad/search.h"
@@ -15,7 +16,6 @@ namespace {
 constexpr double near = 1e-3;         // of the thinner block: so far a block may fall first, or start within the other
 constexpr double least_slope = 0.01;  // cosine between the common normal and the vertical; on steeper faces blocks stand side by side
 constexpr double aside = 0.05;        // of its thickness: a block has left its place
-std::size_t z(int i) { return std::size_t(i); }
 
 Vec3 seen_from(int lower, int upper, const Model& m, const State& s) {
   return Quat(s.pose.q[z(lower)]).conjugate() * (m.rest[z(upper)] + s.pose.u[z(upper)] - m.rest[z(lower)] - s.pose.u[z(lower)]);
