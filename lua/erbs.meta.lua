@@ -535,7 +535,7 @@ function damping(keys) end
 ---@field iterations? integer sequential: sweeps per step, each over its share of dt [1 to 1e+06; default 1]
 ---@field seed? integer sequential: seed of the random order [0 to 2.14748e+09; default 1]
 ---@field start? "equilibrium"|"ramp"|"rest" how gravity is applied [default equilibrium]
----@field ramp_time? number length of the gravity ramp (0: automatic) [s; 0 to 1e+06; default 0]
+---@field ramp_time? number length of the gravity ramp, and of the lowering of what rests without a joint (0: automatic) [s; 0 to 1e+06; default 0]
 ---@field overlap? "error"|"stress_free" treatment of blocks that overlap at rest [default error]
 ---@field collapse_fraction? number share of the mass whose fall counts as a collapse; what is thrown at the structure (free, with an initial velocity) is left out [0 to 1; default 0.05]
 ---@field stop_after_collapse? number time to go on after a collapse (-1: to the end) [s; -1 to 1e+06; default -1]

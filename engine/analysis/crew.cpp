@@ -6,9 +6,9 @@
 namespace erbs::analysis {
 namespace {
 
-constexpr double sample_every = 0.25, trial = 0.15;  // s, ...
-constexpr long least_steps = 48;                     // ... and at least so many steps, with their share of searches for contacts
-constexpr double least_rest = 2, longest_rest = 30;  // s between two trials with the same outcome
+constexpr double sample_every = 0.25, trial_time = 0.15;  // s, ...
+constexpr long least_steps = 48;                          // ... and at least so many steps, with their share of searches for contacts
+constexpr double least_rest = 2, longest_rest = 30;       // s between two trials with the same outcome
 // Share of processor time. A team that spins at its barriers uses all its processors; other programs or sleep took the rest.
 constexpr double undisturbed = 0.85;
 constexpr double better = 1.05;     // required ratio of speeds for a change
@@ -32,7 +32,7 @@ void Crew::begin(Phase phase, int threads, long step, double wall, double proces
   phase_ = phase;
   now_ = threads;
   step_ = step, wall_ = wall, processor_ = processor;
-  window_ = phase == Phase::trial_alone || phase == Phase::trial_together ? trial : phase == Phase::alone ? rest() : sample_every;
+  window_ = phase == Phase::trial_alone || phase == Phase::trial_together ? trial_time : phase == Phase::alone ? rest() : sample_every;
 }
 
 double Crew::rest() const { return std::max(rest_, 2 * least_share * cost_); }

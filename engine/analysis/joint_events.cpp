@@ -3,12 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/base/count.h"
 #include "engine/joints/kinematics.h"
 
 namespace erbs::analysis {
 namespace {
-
-std::size_t z(int i) { return std::size_t(i); }
 
 // One row for the energy lost by softening of former joints and by separation of contacts.
 void write_rest(JointEvents& events, double t, const Energy& energy, RunWriter& writer) {

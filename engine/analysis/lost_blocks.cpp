@@ -4,12 +4,11 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/base/count.h"
 #include "engine/base/error.h"
 
 namespace erbs::analysis {
 namespace {
-
-std::size_t z(int i) { return std::size_t(i); }
 
 Vec3 place_of(const Model& m, const State& s, int b) { return m.rest[z(b)] + s.pose.u[z(b)]; }
 

@@ -3,13 +3,12 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "engine/base/count.h"
 #include "engine/record/recorders/joint_stress.h"
 #include "engine/solve/blocks/prescribed.h"
 
 namespace erbs::analysis {
 namespace {
-
-std::size_t z(int i) { return std::size_t(i); }
 
 // A joint is broken if none of its points carries tension or cohesion any more. Dry joints have none to lose.
 int broken_joints(const Model& model, const JointState& joints) {

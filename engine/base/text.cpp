@@ -116,6 +116,12 @@ std::string for_files(std::string_view text) {
   return out;
 }
 
+std::string for_xml(std::string_view text) {
+  std::string out;
+  for (const char c : text) out += c == '&' ? "&amp;" : c == '<' ? "&lt;" : c == '>' ? "&gt;" : c == '"' ? "&quot;" : std::string(1, c);
+  return out;
+}
+
 std::string file_stem(std::string_view name) {
   std::string stem = for_files(name);
   for (char& c : stem)

@@ -26,6 +26,9 @@ void tell(std::FILE* to, std::string_view text);
 // Valid UTF-8 on one line for files. Control characters become spaces, invalid bytes the character U+FFFD.
 std::string for_files(std::string_view text);
 
+// `text` between the quotes or the tags of XML.
+std::string for_xml(std::string_view text);
+
 // The name of a scene, camera or group as the name of a file: letters of any language, digits, - and _; other characters become _.
 std::string file_stem(std::string_view name);
 

@@ -6,11 +6,7 @@
 #include <utility>
 
 namespace erbs {
-namespace {
-
-double cross2(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
-
-}  // namespace
+namespace {}  // namespace
 
 Polygon2 clip_half_plane(const Polygon2& polygon, const Vec2& n, double d) {
   Polygon2 kept;

@@ -27,6 +27,7 @@ void cut_polygon(int count, const Corner& corner, const Value& value, const Add&
 }
 
 using Vec2 = Eigen::Vector2d;
+inline double cross2(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
 using Polygon2 = std::vector<Vec2>;  // convex, counter-clockwise, m
 
 // Part of the polygon in the half plane n.x <= d.

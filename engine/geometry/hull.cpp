@@ -5,6 +5,7 @@
 #include <map>
 #include <utility>
 
+#include "engine/base/count.h"
 #include "engine/base/error.h"
 #include "engine/geometry/polyhedron.h"
 
@@ -20,13 +21,11 @@ struct Triangle {
   double area;
 };
 
-size_t at(int i) { return static_cast<size_t>(i); }
-
 Triangle triangle(const std::vector<Vec3>& x, int a, int b, int c) {
-  const Vec3 cross = (x[at(b)] - x[at(a)]).cross(x[at(c)] - x[at(a)]);
+  const Vec3 cross = (x[z(b)] - x[z(a)]).cross(x[z(c)] - x[z(a)]);
   const double length = cross.norm();
   const Vec3 n = length > 0 ? Vec3(cross / length) : Vec3(Vec3::Zero());
-  return {{a, b, c}, n, n.dot(x[at(a)]), length / 2};
+  return {{a, b, c}, n, n.dot(x[z(a)]), length / 2};
 }
 
 // Four points that span a large tetrahedron, by a greedy search.
@@ -35,20 +34,20 @@ std::array<int, 4> first_tetrahedron(const std::vector<Vec3>& x, double eps) {
   auto farthest = [&](auto&& distance) {
     int best = 0;
     for (int i = 1; i < n; ++i) {
-      if (distance(x[at(i)]) > distance(x[at(best)])) best = i;
+      if (distance(x[z(i)]) > distance(x[z(best)])) best = i;
     }
     return best;
   };
   const int a = farthest([&](const Vec3& p) { return (p - x[0]).norm(); });
-  const int b = farthest([&](const Vec3& p) { return (p - x[at(a)]).norm(); });
-  const Vec3 along = (x[at(b)] - x[at(a)]).normalized();
-  const int c = farthest([&](const Vec3& p) { return (p - x[at(a)]).cross(along).norm(); });
+  const int b = farthest([&](const Vec3& p) { return (p - x[z(a)]).norm(); });
+  const Vec3 along = (x[z(b)] - x[z(a)]).normalized();
+  const int c = farthest([&](const Vec3& p) { return (p - x[z(a)]).cross(along).norm(); });
   const Triangle base = triangle(x, a, b, c);
   const int d = farthest([&](const Vec3& p) { return std::abs(base.n.dot(p) - base.d); });
-  if (base.area < eps * eps || std::abs(base.n.dot(x[at(d)]) - base.d) < eps) {
+  if (base.area < eps * eps || std::abs(base.n.dot(x[z(d)]) - base.d) < eps) {
     throw Error("the points lie in one plane: they span no body; give points on both sides");
   }
-  if (base.n.dot(x[at(d)]) - base.d > 0) return {a, c, b, d};
+  if (base.n.dot(x[z(d)]) - base.d > 0) return {a, c, b, d};
   return {a, b, c, d};
 }
 
@@ -59,7 +58,7 @@ std::vector<Triangle> hull_triangles(const std::vector<Vec3>& x, double eps) {
     std::map<std::pair<int, int>, bool> horizon;  // directed edges of the triangles visible from p
     std::vector<Triangle> kept;
     for (const Triangle& t : hull) {
-      if (t.n.dot(x[at(p)]) - t.d <= eps) {
+      if (t.n.dot(x[z(p)]) - t.d <= eps) {
         kept.push_back(t);
         continue;
       }
@@ -82,10 +81,10 @@ struct Flat {
 // Points of a face in its own plane, relative to their mean; the axes (x, y, n) are right-handed.
 std::vector<Flat> flattened(const std::vector<Vec3>& x, const Vec3& n, const std::vector<int>& face) {
   Vec3 mean = Vec3::Zero();
-  for (int v : face) mean += x[at(v)] / static_cast<double>(face.size());
+  for (int v : face) mean += x[z(v)] / static_cast<double>(face.size());
   const Vec3 e = n.unitOrthogonal(), f = n.cross(e);
   std::vector<Flat> flat;
-  for (int v : face) flat.push_back({e.dot(x[at(v)] - mean), f.dot(x[at(v)] - mean), v});
+  for (int v : face) flat.push_back({e.dot(x[z(v)] - mean), f.dot(x[z(v)] - mean), v});
   return flat;
 }
 
@@ -103,7 +102,7 @@ void mark_corners(std::vector<Flat> flat, double eps, std::vector<bool>& corner)
       }
       chain.push_back(r);
     }
-    for (const Flat& p : chain) corner[at(p.v)] = true;
+    for (const Flat& p : chain) corner[z(p.v)] = true;
     std::reverse(flat.begin(), flat.end());
   }
 }
@@ -122,7 +121,7 @@ std::vector<Plane> face_planes(const std::vector<Vec3>& x, std::vector<Triangle>
   std::vector<Plane> faces;
   for (const Triangle& t : triangles) {
     auto holds = [&](const Plane& f) {
-      return f.n.dot(t.n) > 0 && std::all_of(t.v.begin(), t.v.end(), [&](int v) { return std::abs(f.n.dot(x[at(v)]) - f.d) < 4 * eps; });
+      return f.n.dot(t.n) > 0 && std::all_of(t.v.begin(), t.v.end(), [&](int v) { return std::abs(f.n.dot(x[z(v)]) - f.d) < 4 * eps; });
     };
     if (t.area > eps * eps && std::none_of(faces.begin(), faces.end(), holds)) faces.push_back({t.n, t.d});
   }
@@ -150,13 +149,13 @@ Polyhedron hull(const std::vector<Vec3>& points) {
   const std::vector<Triangle> triangles = hull_triangles(x, eps);
   std::vector<bool> on_hull(x.size(), false), corner(x.size(), false);
   for (const Triangle& t : triangles) {
-    for (int v : t.v) on_hull[at(v)] = true;
+    for (int v : t.v) on_hull[z(v)] = true;
   }
   const std::vector<Plane> faces = face_planes(x, triangles, eps);
   auto on_face = [&](const Plane& f, const std::vector<bool>& wanted) {
     std::vector<int> on;
     for (int v = 0; v < static_cast<int>(x.size()); ++v) {
-      if (wanted[at(v)] && std::abs(f.n.dot(x[at(v)]) - f.d) < 4 * eps) on.push_back(v);
+      if (wanted[z(v)] && std::abs(f.n.dot(x[z(v)]) - f.d) < 4 * eps) on.push_back(v);
     }
     return flattened(x, f.n, on);
   };
@@ -170,7 +169,7 @@ Polyhedron hull(const std::vector<Vec3>& points) {
   }
   for (const Plane& f : faces) {
     std::vector<int> loop = loop_of(on_face(f, corner));
-    for (int& v : loop) v = number[at(v)];
+    for (int& v : loop) v = number[z(v)];
     if (loop.size() >= 3) result.faces.push_back(std::move(loop));
   }
   if (std::string wrong = problem_of(result); !wrong.empty()) throw Error("no sound body is spanned by the points: " + wrong);

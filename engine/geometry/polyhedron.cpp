@@ -7,6 +7,7 @@
 #include <set>
 #include <utility>
 
+#include "engine/base/count.h"
 #include "engine/base/error.h"
 
 namespace erbs {
@@ -14,16 +15,15 @@ namespace {
 
 using std::size_t;
 
-size_t at(int i) { return static_cast<size_t>(i); }
 int count(size_t n) { return static_cast<int>(n); }
 
 // Newell's normal, of length twice the area; robust for slightly warped loops.
 Vec3 loop_normal(const std::vector<Vec3>& v, const std::vector<int>& loop) {
   Vec3 n = Vec3::Zero();
-  const Vec3& origin = v[at(loop[0])];
+  const Vec3& origin = v[z(loop[0])];
   for (size_t i = 0; i < loop.size(); ++i) {
-    const Vec3 p = v[at(loop[i])] - origin;
-    const Vec3 q = v[at(loop[(i + 1) % loop.size()])] - origin;
+    const Vec3 p = v[z(loop[i])] - origin;
+    const Vec3 q = v[z(loop[(i + 1) % loop.size()])] - origin;
     n += p.cross(q);
   }
   return n;
@@ -44,7 +44,7 @@ double signed_volume(const Polyhedron& p) {
   const Vec3 o = p.vertices[0];
   for (const auto& f : p.faces) {
     for (size_t i = 1; i + 1 < f.size(); ++i) {
-      const Vec3 a = p.vertices[at(f[0])] - o, b = p.vertices[at(f[i])] - o, c = p.vertices[at(f[i + 1])] - o;
+      const Vec3 a = p.vertices[z(f[0])] - o, b = p.vertices[z(f[i])] - o, c = p.vertices[z(f[i + 1])] - o;
       six += a.dot(b.cross(c));
     }
   }
@@ -54,10 +54,10 @@ double signed_volume(const Polyhedron& p) {
 }  // namespace
 
 Plane face_plane(const Polyhedron& p, int face) {
-  const auto& loop = p.faces[at(face)];
+  const auto& loop = p.faces[z(face)];
   const Vec3 n = loop_normal(p.vertices, loop).normalized();
   double d = 0;
-  for (int v : loop) d += n.dot(p.vertices[at(v)]);
+  for (int v : loop) d += n.dot(p.vertices[z(v)]);
   return {n, d / static_cast<double>(loop.size())};
 }
 
@@ -119,7 +119,7 @@ std::string problem_of(const Polyhedron& p) {
   for (size_t f = 0; f < p.faces.size(); ++f) {
     const Plane plane = face_plane(p, count(f));
     for (int v : p.faces[f]) {
-      const double off = plane.n.dot(p.vertices[at(v)]) - plane.d;
+      const double off = plane.n.dot(p.vertices[z(v)]) - plane.d;
       if (std::abs(off) > tolerance) return fmt::format("face {} is not plane: vertex {} is {:.3g} m off", f + 1, v + 1, off);
     }
     for (size_t v = 0; v < p.vertices.size(); ++v) {
@@ -178,7 +178,7 @@ Polyhedron grown(const Polyhedron& p, const std::vector<double>& offsets) {
   for (size_t f = 0; f < moved.size(); ++f) moved[f].d += offsets[f];
   std::vector<std::vector<int>> around(p.vertices.size());
   for (size_t f = 0; f < p.faces.size(); ++f) {
-    for (int v : p.faces[f]) around[at(v)].push_back(count(f));
+    for (int v : p.faces[f]) around[z(v)].push_back(count(f));
   }
   // If three faces meet at every vertex (boxes, prisms), each new vertex is one 3x3 solve and the topology stays.
   Polyhedron result = p;
@@ -189,7 +189,7 @@ Polyhedron grown(const Polyhedron& p, const std::vector<double>& offsets) {
     Mat3 a;
     Vec3 d;
     for (int i = 0; i < 3; ++i) {
-      const Plane& plane = moved[at(around[v][at(i)])];
+      const Plane& plane = moved[z(around[v][z(i)])];
       a.row(i) = plane.n.transpose();
       d[i] = plane.d;
     }
@@ -238,7 +238,7 @@ Vec3 mean_vertex(const Polyhedron& p) {
 double smallest_edge(const Polyhedron& p) {
   double least = std::numeric_limits<double>::infinity();
   for (const auto& f : p.faces) {
-    for (size_t i = 0; i < f.size(); ++i) least = std::min(least, (p.vertices[at(f[i])] - p.vertices[at(f[(i + 1) % f.size()])]).norm());
+    for (size_t i = 0; i < f.size(); ++i) least = std::min(least, (p.vertices[z(f[i])] - p.vertices[z(f[(i + 1) % f.size()])]).norm());
   }
   return least;
 }

@@ -6,6 +6,7 @@
 
 #include "engine/base/error.h"
 #include "engine/base/units.h"
+#include "engine/geometry/clip.h"
 
 namespace erbs {
 namespace {
@@ -58,8 +59,6 @@ LineRule simpson_line(int n) {
   }
   return r;
 }
-
-double cross2(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
 
 bool is_rectangle(const Polygon2& p) {
   if (p.size() != 4) return false;

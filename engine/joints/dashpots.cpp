@@ -1,12 +1,8 @@
 #include "engine/joints/dashpots.h"
 
+#include "engine/base/count.h"
+
 namespace erbs {
-namespace {
-
-std::size_t z(int i) { return std::size_t(i); }
-
-}  // namespace
-
 void book_dashpots(State& s, int j, const double f[6], const double dq[6], JointSums& sums) {
   double* last = &s.joints.viscous[6 * z(j)];
   for (int i = 0; i < 6; ++i) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/base/count.h"
 #include "engine/joints/dashpots.h"
 #include "engine/joints/event_bound.h"
 #include "engine/joints/kernels.h"
@@ -10,8 +11,6 @@
 
 namespace erbs {
 namespace {
-
-std::size_t z(int i) { return std::size_t(i); }
 
 // q and f, one step ago, of joint j in lane l that cracks now: the elastic pass with the pose rows of its blocks moved back by dt.
 void before(const State& s, const Joint& j, const JointPack& B, int l, double gap[6], double resultant[6]) {

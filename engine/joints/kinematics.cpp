@@ -2,13 +2,12 @@
 
 #include <algorithm>
 
+#include "engine/base/count.h"
 #include "engine/joints/kernels.h"
 #include "engine/model/joint_packs.h"
 
 namespace erbs {
 namespace {
-
-std::size_t z(int i) { return std::size_t(i); }
 
 // Sets the addresses of the data of joint j, for lane l.
 void set_source(const Model& m, const State& s, int j, int l, PosePack& p) {

@@ -2,13 +2,12 @@
 
 #include <cmath>
 
+#include "engine/base/count.h"
 #include "engine/joints/dashpots.h"
 #include "engine/joints/kinematics.h"
 
 namespace erbs {
 namespace {
-
-std::size_t z(int i) { return std::size_t(i); }
 
 // Elastic tractions of all points of an intact joint, summed about the joint's centre.
 void intact_resultant(const Model& m, const Joint& joint, const double* gap, Vec3& force, Vec3& moment) {

@@ -6,7 +6,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "engine/base/memory.h"
+#include "engine/base/system/memory.h"
 #include "engine/base/vec.h"
 #include "engine/model/joint_pack.h"
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/base/count.h"
+
 namespace erbs {
 namespace {
 
@@ -15,8 +17,6 @@ constexpr double undamped_loan = 20;
 // Dashpots bring a low column to rest. A tall one hops on, the longer the taller: courses for each further hop (m04_stack_after_bump). At
 // 3 a stack of 20 plates that have fallen onto each other creeps, at 6 it rests (h35_poured_stack).
 constexpr double courses_of_hop = 3;
-
-std::size_t z(int i) { return std::size_t(i); }
 
 Vec3 normal_of(const Model& m, const State& s, int j) {
   const Joint& joint = m.joint[z(j)];

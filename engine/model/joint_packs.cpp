@@ -4,13 +4,12 @@
 #include <limits>
 #include <numeric>
 
+#include "engine/base/count.h"
+#include "engine/base/units.h"
 #include "engine/laws/yield.h"
 
 namespace erbs {
 namespace {
-
-constexpr double infinite = std::numeric_limits<double>::infinity();
-std::size_t z(int i) { return std::size_t(i); }
 
 struct OwnerBalance {
   Model& m;

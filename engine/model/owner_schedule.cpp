@@ -5,6 +5,7 @@
 #include <bit>
 #include <utility>
 
+#include "engine/base/count.h"
 #include "engine/model/block_arrays.h"
 #include "engine/model/model.h"
 
@@ -12,7 +13,6 @@ namespace erbs {
 namespace {
 
 constexpr int record = 6 * pack_size;  // doubles
-std::size_t z(int i) { return std::size_t(i); }
 
 // A joint of one of eight blocks, and the record it reads.
 struct End {

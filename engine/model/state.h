@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "engine/base/memory.h"
+#include "engine/base/system/memory.h"
 #include "engine/laws/crushing.h"
 #include "engine/model/block_arrays.h"
 #include "engine/model/contact_pair.h"

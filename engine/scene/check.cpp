@@ -332,7 +332,7 @@ std::vector<std::string> check(const Scene& scene) {
 }
 
 std::vector<std::string> warnings(const Scene& scene) {
-  Report report;
+  Report report{scene.warnings};
   doubt_units(report, scene);
   doubt_idle_keys(report, scene);
   name_groups(report, scene, false);

@@ -161,7 +161,7 @@ struct Analysis {
   int iterations = 1;                 // sweeps per step, each over its share of dt
   int seed = 1;                       // of the random order
   std::string start = "equilibrium";  // equilibrium | ramp | rest: how gravity is applied
-  double ramp_time = 0;               // s, for start = "ramp"; 0: chosen
+  double ramp_time = 0;               // s, of each ramp at the start; 0: chosen
   std::string overlap = "error";      // error | stress_free
   double collapse_fraction = 0.05;    // fallen share of the mass that counts as collapse
   double stop_after_collapse = -1;    // s of simulated time after collapse; -1: run to duration
@@ -197,7 +197,8 @@ struct Analysis {
         {"iterations", &Analysis::iterations, "", "sequential: sweeps per step, each over its share of dt", 1, 1e6},
         {"seed", &Analysis::seed, "", "sequential: seed of the random order", 0, 2147483647},
         {"start", &Analysis::start, "", "how gravity is applied", 0, 0, false, "equilibrium|ramp|rest"},
-        {"ramp_time", &Analysis::ramp_time, "s", "length of the gravity ramp (0: automatic)", 0, 1e6},
+        {"ramp_time", &Analysis::ramp_time, "s",
+         "length of the gravity ramp, and of the lowering of what rests without a joint (0: automatic)", 0, 1e6},
         {"overlap", &Analysis::overlap, "", "treatment of blocks that overlap at rest", 0, 0, false, "error|stress_free"},
         {"collapse_fraction", &Analysis::collapse_fraction, "",
          "share of the mass whose fall counts as a collapse; what is thrown at the structure (free, with an initial velocity) is left out",
@@ -358,7 +359,8 @@ struct Scene {
   std::vector<Recorder> recorders;
   std::vector<Camera> cameras;
   std::vector<Param> params;
-  std::vector<std::string> notes;  // sentences on numbers that functions of the language have derived
+  std::vector<std::string> notes;     // sentences on numbers that functions of the language have derived
+  std::vector<std::string> warnings;  // what those functions doubt
   std::vector<Expectation> expectations;
   std::vector<PictureExpectation> pictures;
   std::vector<std::pair<std::string, std::string>> metric_units;  // of the scene's own metrics: name, unit

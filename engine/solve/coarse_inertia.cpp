@@ -2,12 +2,11 @@
 
 #include <algorithm>
 
+#include "engine/base/count.h"
 #include "engine/solve/linear/stiffness.h"
 
 namespace erbs {
 namespace {
-
-std::size_t z(int i) { return std::size_t(i); }
 
 constexpr int chunk = block_grain * pack_size;  // blocks
 

@@ -2,13 +2,12 @@
 
 #include <algorithm>
 
+#include "engine/base/count.h"
 #include "engine/joints/reference.h"
 #include "engine/model/joint_packs.h"
 
 namespace erbs {
 namespace {
-
-std::size_t z(int i) { return std::size_t(i); }
 
 int chunks(int n, int grain) { return std::max(1, (n + grain - 1) / grain); }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/base/count.h"
 #include "engine/joints/event_bound.h"
 #include "engine/joints/kinematics.h"
 #include "engine/model/joint_packs.h"
@@ -23,7 +24,6 @@ constexpr int watch_every = 64;      // steps between two looks for blocks that 
 constexpr int watch_few_every = 4;   // ... of few blocks: they take longer steps
 constexpr int few_blocks = 100;
 constexpr int columns_every = 64;  // steps between two searches for the columns of blocks in contact
-std::size_t z(int i) { return std::size_t(i); }
 
 // s, between two calls that are due `every()` so many steps.
 double interval(int steps, const TimeStep& time) { return std::max(steps, time.last_substeps) * time.last_dt; }

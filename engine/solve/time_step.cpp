@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "engine/base/count.h"
 #include "engine/joints/event_bound.h"
 #include "engine/joints/kinematics.h"
 #include "engine/laws/yield.h"
@@ -14,7 +15,6 @@ namespace erbs {
 namespace {
 
 constexpr double trembling = 0.1;  // of the event rate of free fall; below it a body at rest only trembles under the thresholds of sleep
-std::size_t z(int i) { return std::size_t(i); }
 
 // Relative displacement of a joint and its rate, in the joint frame.
 struct JointMotion {

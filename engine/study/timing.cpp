@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "engine/base/count.h"
 #include "engine/base/hash.h"
 #include "engine/joints/kinematics.h"
 #include "engine/model/joint_packs.h"
@@ -14,7 +15,6 @@ namespace {
 
 constexpr int stretches = 7;
 constexpr long hash_steps = 128;
-std::size_t z(int i) { return std::size_t(i); }
 
 double median(std::vector<double> x) {
   std::sort(x.begin(), x.end());

@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "engine/analysis/start/at_rest.h"
+#include "engine/base/count.h"
 #include "engine/base/system/process.h"
 #include "engine/record/format/json.h"
 #include "engine/record/results/metrics.h"
@@ -19,7 +20,6 @@ namespace erbs::lua {
 namespace {
 
 namespace fs = std::filesystem;
-size_t z(int i) { return static_cast<size_t>(i); }
 
 Json to_json(const study::Timing& t, double per) {
   return {{"user_us_per_step", 1e6 * t.user},
@@ -98,20 +98,20 @@ Json measure(const std::string& path, const SceneOptions& options, double second
   return out;
 }
 
-struct Case {
+struct BenchCase {
   const char* name;
   const char* scene;
   std::vector<std::string> defines;
 };
 
-const std::vector<Case>& cases() {
-  static const std::vector<Case> all{{"house_951", "house_951.lua", {}},
-                                     {"dry_wall_100", "dry_wall.lua", {"bricks=10", "courses=10"}},
-                                     {"dry_wall_1012", "dry_wall.lua", {"bricks=40", "courses=25"}},
-                                     {"dry_wall_10012", "dry_wall.lua", {"bricks=400", "courses=25"}},
-                                     {"house_10000", "house_951.lua", {"x=12.39", "y=12.39", "courses=20"}},
-                                     {"aqueduct", "aqueduct.lua", {}},
-                                     {"pile", "pile.lua", {}}};
+const std::vector<BenchCase>& cases() {
+  static const std::vector<BenchCase> all{{"house_951", "house_951.lua", {}},
+                                          {"dry_wall_100", "dry_wall.lua", {"bricks=10", "courses=10"}},
+                                          {"dry_wall_1012", "dry_wall.lua", {"bricks=40", "courses=25"}},
+                                          {"dry_wall_10012", "dry_wall.lua", {"bricks=400", "courses=25"}},
+                                          {"house_10000", "house_951.lua", {"x=12.39", "y=12.39", "courses=20"}},
+                                          {"aqueduct", "aqueduct.lua", {}},
+                                          {"pile", "pile.lua", {}}};
   return all;
 }
 
@@ -121,7 +121,7 @@ std::string folder_of_scenes() {
   throw Error("the folder scenes/bench is not here; start erbs bench where the project lies, or name scenes: erbs bench SCENE.lua");
 }
 
-Json child(const Case& item, const std::string& scenes, const std::string& directory) {
+Json child(const BenchCase& item, const std::string& scenes, const std::string& directory) {
   const std::string file = directory + "/" + item.name + ".json", log = directory + "/" + item.name + ".log";
   std::vector<std::string> command{own_path(), "bench", scenes + "/" + item.scene, "-o", file, "--force", "-q"};
   for (const auto& define : item.defines) command.insert(command.end(), {"-D", define});
@@ -154,7 +154,7 @@ int verb_bench(const BenchCommand& command) {
     throw Error(fmt::format("\"{}\" holds an earlier bench; overwrite it with --force, or choose another folder with -o DIR", directory));
   fs::create_directories(directory);
   Json rows = Json::object();
-  for (const Case& item : cases()) {
+  for (const BenchCase& item : cases()) {
     rows[item.name] = child(item, scenes, directory);
     if (!command.output.quiet) print_bench_row(rows[item.name]);
   }

@@ -36,8 +36,7 @@ void print_scene(const Scene& scene) {
       scene.recorders.size(), scene.cameras.size());
   for (const Param& param : scene.params)
     say("  param {} = {:g} {}{}{}\n", param.name, param.value, param.unit, param.text.empty() ? "" : "  -- ", param.text);
-  for (const std::string& note : scene.notes)
-    if (!note.starts_with("warning: ")) say("  {}\n", note);
+  for (const std::string& note : scene.notes) say("  {}\n", note);
 }
 
 // Where each ground motion that ends leaves the ground.
@@ -91,8 +90,6 @@ void check_scene(const std::string& path, const CheckCommand& command) {
   const analysis::Prepared run = analysis::prepare(scene, command.scene.allow_unstable);
   if (scene.push.quasi_static()) analysis::refuse_floating(run, scene.push.place);
   const Recorders recorders(scene, run.model);  // throws Error if two columns have one name
-  for (const auto& note : scene.notes)
-    if (note.starts_with("warning: ")) tell(stderr, note);
   for (const auto& warning : warnings(scene)) tell(stderr, "warning: " + warning);
   for (const auto& warning : run.warnings) tell(stderr, "warning: " + warning);
   if (command.quiet) return;

@@ -15,7 +15,7 @@
 namespace erbs::lua {
 namespace {
 
-constexpr const char *steps = "steps", *points = "contact_points", *memory = "peak_memory_bytes", *collapsed = "collapse.collapsed";
+constexpr const char *steps = "steps", *points = "contact_points", *memory = "peak_memory_bytes", *collapse_key = "collapse.collapsed";
 
 struct Measured {
   std::string effect, because, trouble;
@@ -33,7 +33,7 @@ Measured measured_of(const SettingRow& row, const std::string& effect, const std
   m.inaccurate = row.status == "inaccurate";
   if (!row.answered() && !m.inaccurate) m.trouble = row.status == "error" ? row.reason : row.status + ": " + row.reason;
   const auto at = [&](const char* key) { return row.values.contains(key) ? row.values.at(key) : 0; };
-  m.steps = at(steps), m.points = at(points), m.memory = at(memory), m.collapsed = at(collapsed) != 0;
+  m.steps = at(steps), m.points = at(points), m.memory = at(memory), m.collapsed = at(collapse_key) != 0;
   for (const auto& [key, value] : row.values)
     if (key.starts_with("metrics.")) m.metrics[key.substr(8)] = value;
   return m;
@@ -47,7 +47,7 @@ SettingRuns runs_of(const Script& script, const std::vector<Effect>& effects, co
   runs.directory = directory, runs.jobs = std::max(1, command.batch.jobs), runs.quiet = command.output.quiet;
   runs.max_wall = command.batch.max_wall.value_or(0);
   for (const auto& [file, hash] : script.scene().inputs) runs.identity += hash + "\n";
-  runs.keys = {steps, points, memory, collapsed};
+  runs.keys = {steps, points, memory, collapse_key};
   for (const auto& [name, unit] : script.scene().metric_units) runs.keys.push_back("metrics." + name);
   std::vector<std::string> common = scene_arguments(command.scene);
   if (command.scene.allow_unstable) common.emplace_back("--allow-unstable");
@@ -75,7 +75,7 @@ std::pair<std::string, double> moved(const Measured& all, const Measured& withou
   return out;
 }
 
-struct Row {
+struct EffectRow {
   Measured without;
   double ns, percent;  // per step
   double steps;        // %, of the steps of the run; negative: without the effect the run takes more
@@ -83,7 +83,7 @@ struct Row {
   std::pair<std::string, double> moved;
 };
 
-void print_row(const Row& r) {
+void print_row(const EffectRow& r) {
   if (!r.without.trouble.empty()) {
     say("{:<26} without it: {}\n", r.without.effect, r.without.trouble);
     return;
@@ -93,17 +93,17 @@ void print_row(const Row& r) {
   std::fflush(stdout);
 }
 
-void write_table(const std::vector<Row>& rows, const std::string& path) {
+void write_table(const std::vector<EffectRow>& rows, const std::string& path) {
   CsvWriter table(path, {"effect", "called_for_by", "ns_per_point_step", "percent", "steps_percent", "bytes_per_point", "moves_percent",
                          "metric", "reason"});
-  for (const Row& r : rows)
+  for (const EffectRow& r : rows)
     table.text_row({r.without.effect, r.without.because, fmt::format("{}", r.ns), fmt::format("{}", r.percent), fmt::format("{}", r.steps),
                     fmt::format("{}", r.bytes), fmt::format("{}", 100 * r.moved.second), r.moved.first,
                     r.without.inaccurate ? "inaccurate" : r.without.trouble});
   table.flush();
 }
 
-void draw(const std::vector<Row>& rows, const std::string& scene, const std::string& path) {
+void draw(const std::vector<EffectRow>& rows, const std::string& scene, const std::string& path) {
   std::string text;
   for (size_t i = 0; i < rows.size(); ++i)
     text += fmt::format("{} \"{}\" {:.6g} {:.6g}\n", i, rows[i].without.effect, rows[i].percent, std::max(1e-6, rows[i].moved.second));
@@ -127,12 +127,12 @@ void draw(const std::vector<Row>& rows, const std::string& scene, const std::str
 }
 
 // What two equal runs differ by in the cost of a step, and which rows of the table that leaves in doubt.
-void print_noise(const std::vector<Row>& rows, const Measured& all, const Measured& again) {
+void print_noise(const std::vector<EffectRow>& rows, const Measured& all, const Measured& again) {
   if (!again.trouble.empty()) return;
   constexpr double least = 2;  // %, even of two runs that agree by chance
   const double noise = std::max(least, 100 * std::fabs(again.cpu - all.cpu) / all.cpu);
   const auto within =
-      std::ranges::count_if(rows, [&](const Row& r) { return r.without.trouble.empty() && std::fabs(r.percent) < 2 * noise; });
+      std::ranges::count_if(rows, [&](const EffectRow& r) { return r.without.trouble.empty() && std::fabs(r.percent) < 2 * noise; });
   say("\nmoves: change of the metric that changes most, in % of its larger value\n"
       "two equal runs of {:.2g} s differ by {:.1f} % in their time, so that costs below {:.0f} % are noise: {} of {} effects{}\n",
       all.cpu, 100 * std::fabs(again.cpu - all.cpu) / all.cpu, 2 * noise, within, rows.size(),
@@ -161,9 +161,9 @@ int verb_effects(const EffectsCommand& command) {
       all.steps, all.points, 1e9 * all.cpu / updates, all.memory / std::max(1.0, all.points));
   say("{:<26} {:>9} {:>7} {:>7} {:>9}  {:>10}  {:<28} {}\n", "effect", "ns/point", "%", "steps %", "B/point", "moves %", "metric",
       "called for by");
-  std::vector<Row> rows;
+  std::vector<EffectRow> rows;
   for (std::size_t i = 0; i < effects.size(); ++i) {
-    Row row{measured_of(made[i + 1], effects[i].name, effects[i].because), NAN, NAN, NAN, NAN, {"-", NAN}};
+    EffectRow row{measured_of(made[i + 1], effects[i].name, effects[i].because), NAN, NAN, NAN, NAN, {"-", NAN}};
     if (row.without.trouble.empty()) {
       // per step: without an effect a run may end earlier or take other steps
       const double each = all.cpu / all.steps, now = row.without.cpu / std::max(1.0, row.without.steps);
@@ -178,7 +178,7 @@ int verb_effects(const EffectsCommand& command) {
   }
   print_noise(rows, all, measured_of(made.back(), "", ""));
   write_table(rows, directory + "/effects.csv");
-  std::erase_if(rows, [](const Row& row) { return !row.without.trouble.empty(); });
+  std::erase_if(rows, [](const EffectRow& row) { return !row.without.trouble.empty(); });
   draw(rows, scene.name, directory + "/effects.svg");
   say("\n{}\n{}\n", directory + "/effects.csv", directory + "/effects.svg");
   return exit_ok;

@@ -22,7 +22,7 @@ namespace erbs::lua {
 namespace {
 
 namespace fs = std::filesystem;
-using Verdict = study::MapRun::Verdict;
+using RunVerdict = study::MapRun::Verdict;
 
 // Shares of the window that the runs reach one after the other. Runs that diverge do so early. If the time runs out, every run has at
 // least been tried.
@@ -166,13 +166,13 @@ void read(study::MapRun& r, const Case& run, const std::string& quantity) {
     r.broken = int(number("joints_broken").value_or(0));
     if (r.value) r.seen.push_back({r.until, *r.value});
     const bool by_ledger = r.scheme.sequential ? r.residual > wrong_ledger || own_doing(metrics) : run.code == exit_numbers;
-    r.verdict = status == "diverged"                              ? Verdict::diverged
-                : by_ledger                                       ? Verdict::ledger
-                : status == "completed" || status == "inaccurate" ? Verdict::converged
-                : status == "stopped"                             ? Verdict::bounded
-                                                                  : Verdict::failed;
-  } catch (const std::exception&) { r.verdict = Verdict::failed; }
-  const bool tame = r.verdict == Verdict::converged || r.verdict == Verdict::bounded;
+    r.verdict = status == "diverged"                              ? RunVerdict::diverged
+                : by_ledger                                       ? RunVerdict::ledger
+                : status == "completed" || status == "inaccurate" ? RunVerdict::converged
+                : status == "stopped"                             ? RunVerdict::bounded
+                                                                  : RunVerdict::failed;
+  } catch (const std::exception&) { r.verdict = RunVerdict::failed; }
+  const bool tame = r.verdict == RunVerdict::converged || r.verdict == RunVerdict::bounded;
   r.reason = tame ? "" : last_words(run.log, run.code, run.scene);
 }
 
@@ -195,15 +195,15 @@ void read_note(study::MapRun& r, const std::string& path, const std::string& key
     if (!fs::exists(path)) return;
     const Json note = read_json(path);
     if (note.value("key", "") != key) return;
-    r.verdict = Verdict(note.value("verdict", 0)), r.until = note.value("until", 0.0), r.residual = note.value("residual", 0.0);
+    r.verdict = RunVerdict(note.value("verdict", 0)), r.until = note.value("until", 0.0), r.residual = note.value("residual", 0.0);
     for (const Json& one : note.at("seen")) r.seen.push_back({one.at(0).get<double>(), one.at(1).get<double>()});
     if (note["value"].is_number()) r.value = note["value"].get<double>();
     r.broken = note.value("broken", 0), r.cpu = note.value("cpu_s", 0.0), r.reason = note.value("reason", "");
-  } catch (const std::exception&) { r.verdict = Verdict::waiting; }
+  } catch (const std::exception&) { r.verdict = RunVerdict::waiting; }
 }
 
 void settle_ratios(MapStudy& study) {
-  const auto tame = [](const study::MapRun& r) { return r.verdict == Verdict::converged || r.verdict == Verdict::bounded; };
+  const auto tame = [](const study::MapRun& r) { return r.verdict == RunVerdict::converged || r.verdict == RunVerdict::bounded; };
   for (study::MapRun& r : study.all)
     for (const study::MapRun& reference : study.all)
       if (!reference.scheme.sequential && reference.factor == r.factor && reference.dt == study.steps.front().second &&
@@ -221,13 +221,14 @@ void carry_out(MapStudy& study, const AccuracyCommand& command, const std::strin
   const auto folder_of = [&](const study::MapRun& r) { return study.directory + "/runs/" + stem(r); };
   for (study::MapRun& r : study.all) {
     if (batch.resume) read_note(r, folder_of(r) + ".json", key);
-    if (r.verdict == Verdict::bounded && !fs::exists(folder_of(r) + "/checkpoint.bin")) r.verdict = Verdict::waiting, r.seen.clear();
+    if (r.verdict == RunVerdict::bounded && !fs::exists(folder_of(r) + "/checkpoint.bin")) r.verdict = RunVerdict::waiting, r.seen.clear();
   }
   for (const double share : shares) {
     std::vector<std::size_t> which;
     for (std::size_t i = 0; i < study.all.size(); ++i) {
       const study::MapRun& r = study.all[i];
-      if (r.verdict == Verdict::waiting || (r.verdict == Verdict::bounded && r.until < 0.999 * share * study.window)) which.push_back(i);
+      if (r.verdict == RunVerdict::waiting || (r.verdict == RunVerdict::bounded && r.until < 0.999 * share * study.window))
+        which.push_back(i);
     }
     std::stable_sort(which.begin(), which.end(), [&](std::size_t a, std::size_t b) { return work(study.all[a]) < work(study.all[b]); });
     std::vector<Case> cases;
@@ -235,7 +236,7 @@ void carry_out(MapStudy& study, const AccuracyCommand& command, const std::strin
       const study::MapRun& r = study.all[i];
       Case run;
       run.scene = study.scene, run.name = stem(r), run.directory = folder_of(r), run.log = run.directory + ".log", run.extra = r.words;
-      run.resume = r.verdict == Verdict::bounded;
+      run.resume = r.verdict == RunVerdict::bounded;
       run.within_budget = true;
       if (share < 1) run.extra.insert(run.extra.end(), {"--until", fmt::format("{}", share * study.window)});
       cases.push_back(std::move(run));
@@ -260,10 +261,11 @@ void print_map(const MapStudy& study) {
   int count[6] = {}, other = 0;
   for (const study::MapRun& r : study.all) {
     ++count[int(r.verdict)];
-    const bool tame = r.verdict == Verdict::converged || r.verdict == Verdict::bounded;
-    const bool told = r.verdict != Verdict::waiting && r.verdict != Verdict::failed;
+    const bool tame = r.verdict == RunVerdict::converged || r.verdict == RunVerdict::bounded;
+    const bool told = r.verdict != RunVerdict::waiting && r.verdict != RunVerdict::failed;
     const bool theory = foretold(r, study.nominal);
-    if (!told || tame == theory || (r.verdict == Verdict::bounded && !theory)) continue;  // a run that is bounded so far may still diverge
+    if (!told || tame == theory || (r.verdict == RunVerdict::bounded && !theory))
+      continue;  // a run that is bounded so far may still diverge
     if (++other == 1) say("runs that contradict theory:\n");
     say("  {:<10} {:<8} stiffness x {:<4g} dt {:.4g} s ({}), c/m {:.4g} 1/s: {} at {:.4g} s\n",
         r.scheme.sequential ? "sequential" : "leapfrog", r.scheme.explicit_damping ? "explicit" : "centred", r.factor, r.dt, r.step,
@@ -271,7 +273,7 @@ void print_map(const MapStudy& study) {
   }
   std::string text;
   for (int v = 0; v < 6; ++v)
-    if (count[v] > 0) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count[v], word(Verdict(v)));
+    if (count[v] > 0) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count[v], word(RunVerdict(v)));
   say("{} runs: {}; {} contradict theory\n", study.all.size(), text, other);
   if (count[0] + count[2] > 0) say("--resume --budget 60m continues the unfinished runs\n");
 }

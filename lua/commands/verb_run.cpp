@@ -13,6 +13,7 @@
 #include "engine/base/system/affinity.h"
 #include "engine/base/system/interrupt.h"
 #include "engine/base/text.h"
+#include "engine/record/format/json.h"
 #include "engine/record/performance/performance_figure.h"
 #include "engine/scene/effects.h"
 #include "engine/study/twin.h"
@@ -30,11 +31,6 @@
 
 namespace erbs::lua {
 namespace {
-
-std::string text_of(const std::string& path) {
-  std::ifstream stream(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-}
 
 // Stored pictures and values are those of the scene as it is written: a run that is changed by options is not compared with them.
 std::vector<Verdict> judge_all(const Scene& scene, const std::string& path, const std::string& directory, bool as_written,
@@ -268,8 +264,6 @@ int verb_run(const RunCommand& wish) {
   for (const auto& effect : command.changes.without) switch_off(scene, effect);
   std::vector<std::string> notes = script.output();
   notes.insert(notes.end(), scene.notes.begin(), scene.notes.end());
-  for (const auto& note : scene.notes)
-    if (note.starts_with("warning: ")) tell(stderr, note);
   for (const auto& note : apply_overrides(scene, command)) notes.push_back(note);
   if (!command.changes.settings.empty() || command.changes.push_to > 0)  // they pass the same checks as the scene
     if (const auto mistakes = check(scene); !mistakes.empty()) throw Errors(mistakes);
@@ -290,7 +284,7 @@ int verb_run(const RunCommand& wish) {
       outcome.lock = std::make_shared<FolderLock>(directory);
       outcome.metrics.status = read_metrics(directory).value("status", "");
     } else {
-      outcome = run_scene(std::move(scene), text_of(path), notes, directory, command);
+      outcome = run_scene(std::move(scene), whole_text(path), notes, directory, command);
     }
     for (const auto& warning : outcome.warnings) tell(stderr, "warning: " + warning);
     if (!outcome.trouble.empty()) tell(stderr, path + ": " + outcome.trouble);

@@ -106,12 +106,12 @@ void check_between(lua_State* lua, Context& context, int function, const Samples
   // A jump is in one interval; a wave that is sampled too coarsely differs in many.
   const auto wrong = std::ranges::count_if(errors, [&](double e) { return e > off * (high - low) + 1e-12 * std::max(high, -low); });
   if (double(wrong) < std::max(std::min(3.0, looks), looks / 50)) return;
-  const std::string note = fmt::format(
-      "warning: {}: between its samples, {:g} s apart, the function of this wave departs from the line through them by up to "
+  const std::string warning = fmt::format(
+      "{}: between its samples, {:g} s apart, the function of this wave departs from the line through them by up to "
       "{:.0f} % of its range, as at {:.6g} s: the run takes another wave; take a smaller step, such as sample = {:.2g}",
       place.text(), sample, 100 * worst / (high - low), when, sample / 10);
-  std::vector<std::string>& notes = context.scene.notes;
-  if (std::ranges::find(notes, note) == notes.end()) notes.push_back(note);  // a line may make many loads
+  std::vector<std::string>& warnings = context.scene.warnings;
+  if (std::ranges::find(warnings, warning) == warnings.end()) warnings.push_back(warning);  // a line may make many loads
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
 #include "lua/reports/book.h"
+#include "engine/record/format/json.h"
 #include "lua/reports/book_endings.h"
 
 #include <algorithm>
@@ -18,11 +19,6 @@ namespace erbs::lua {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string text_of(const std::string& path) {
-  std::ifstream stream(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-}
 
 // v17_eccentric_compression -> 'v', 17.
 std::pair<char, int> number_of(const std::string& name) {
@@ -241,7 +237,7 @@ std::string code_cell(const std::string& name) {
 }
 
 bool replace_marked(const std::string& file, const std::string& mark, const std::string& text) {
-  std::string all = text_of(file);
+  std::string all = whole_text(file);
   const std::string open = "<!-- " + mark + " -->", close = "<!-- /" + mark + " -->";
   const size_t from = all.find(open), to = all.find(close);
   if (from == std::string::npos || to == std::string::npos || to < from) return false;

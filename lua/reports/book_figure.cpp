@@ -9,10 +9,10 @@
 namespace erbs::lua {
 namespace {
 
-constexpr double least = 1e-6, most = 30;  // ends of the axis; points beyond them are drawn at the ends
+constexpr double axis_start = 1e-6, axis_end = 30;  // ends of the axis; points beyond them are drawn at the ends
 
 std::string point(const Verdict& v, double y) {
-  const double x = std::isfinite(v.used) ? std::clamp(v.used, least, most) : v.passed ? least : most;
+  const double x = std::isfinite(v.used) ? std::clamp(v.used, axis_start, axis_end) : v.passed ? axis_start : axis_end;
   return fmt::format("{:.5g} {:.5g}\n", x, y);
 }
 
@@ -32,16 +32,16 @@ void draw_family(const Family& family, const std::string& path) {
       const Verdict& v = result.verdicts[i];
       (v.passed ? good : bad) += point(v, y - height(i, result.verdicts.size()));
     }
-    if (!result.trouble.empty()) bad += fmt::format("{} {}\n", most, y);
+    if (!result.trouble.empty()) bad += fmt::format("{} {}\n", axis_end, y);
   }
   plot::Figure figure{1240, height_px, 14};
   figure.labels = {{family.title, fmt::format("screen 0.02,{:.5f}", 1 - 28 / height_px), "left font ',18'"}};
   plot::Panel p;
   p.axes = {0.30, 0.97, 85 / height_px, 1 - 60 / height_px};
   p.x = {"error as a share of its tolerance; right of the line it fails",
-         fmt::format("[{}:{}]", 0.7 * least, 1.5 * most),
-         fmt::format("('0' {}, '10^{{-5}}' 1e-5, '10^{{-4}}' 1e-4, '10^{{-3}}' 1e-3, '10^{{-2}}' 1e-2, '0.1' 0.1, '1' 1, 'none' {})", least,
-                     most),
+         fmt::format("[{}:{}]", 0.7 * axis_start, 1.5 * axis_end),
+         fmt::format("('0' {}, '10^{{-5}}' 1e-5, '10^{{-4}}' 1e-4, '10^{{-3}}' 1e-3, '10^{{-2}}' 1e-2, '0.1' 0.1, '1' 1, 'none' {})",
+                     axis_start, axis_end),
          "",
          "",
          true};

@@ -12,6 +12,7 @@
 #include "engine/base/system/interrupt.h"
 #include "engine/base/text.h"
 #include "engine/record/folder/run_folder.h"
+#include "engine/record/format/json.h"
 #include "engine/study/pool.h"
 #include "lua/program/child.h"
 
@@ -21,13 +22,8 @@ namespace {
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
-std::string text_of(const fs::path& path) {
-  std::ifstream stream(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-}
-
 bool carries_expectations(const fs::path& path) {
-  const std::string text = text_of(path);
+  const std::string text = whole_text(path);
   for (size_t at = text.find("expect"); at != std::string::npos; at = text.find("expect", at + 1)) {
     const size_t word_end = text.find_first_not_of("abcdefghijklmnopqrstuvwxyz_", at + 6);  // expect, expect_image, expect_stored
     const size_t next = text.find_first_not_of(" \t", word_end);
@@ -71,11 +67,6 @@ study::Job job_of(const Case& item, const SceneOptions& options, int threads, st
   // A run stops at its limit by itself and keeps its results; its studies may not.
   const double most = max_wall.value_or(0);
   return {command, {.output = item.log, .errors = item.log}, most > 0 ? most + 2 : 0, most > 0 ? most + 12 : 0};
-}
-
-double number_at(const Json& json, const char* key) {
-  const Json* value = find_key(json, key);
-  return value && value->is_number() ? value->get<double>() : 0;
 }
 
 }  // namespace
@@ -152,7 +143,7 @@ CaseResult result_of(const Case& item) {
   result.scene = item.scene;
   result.name = item.name;
   result.cpu = item.cpu;
-  result.title = title_of(text_of(item.scene));
+  result.title = title_of(whole_text(item.scene));
   try {
     if (fs::exists(run_file(item.directory, "metrics.json"))) {
       const Json metrics = read_metrics(item.directory);

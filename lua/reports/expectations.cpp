@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/base/units.h"
+
 namespace erbs::lua {
 namespace {
 
@@ -12,29 +14,27 @@ std::string short_number(double value) { return fmt::format("{:.6g}", value); }
 // A word of metrics.json in the spelling of an expectation: completed, true, null.
 std::string word(const Json& value) { return value.is_string() ? value.get<std::string>() : value.dump(); }
 
-constexpr double without_end = std::numeric_limits<double>::infinity();
-
-double share(double error, double tolerance) { return error == 0 ? 0 : tolerance > 0 ? error / tolerance : without_end; }
+double share(double error, double tolerance) { return error == 0 ? 0 : tolerance > 0 ? error / tolerance : infinite; }
 
 // Ratio of the error to its tolerance. For a bound whose sign permits it, the ratio of value to bound: 0 far within, 1 at the bound.
 double used_of(const Expectation& item, double got) {
   using Kind = Expectation::Kind;
-  if (!std::isfinite(got)) return without_end;
+  if (!std::isfinite(got)) return infinite;
   switch (item.kind) {
     case Kind::rel:
       return share(std::abs(got - item.value), item.tolerance * std::abs(item.value));
     case Kind::abs:
       return share(std::abs(got - item.value), item.tolerance);
     case Kind::below:
-      return item.value > 0 ? std::max(0.0, got) / item.value : got < item.value ? 0 : without_end;
+      return item.value > 0 ? std::max(0.0, got) / item.value : got < item.value ? 0 : infinite;
     case Kind::above:
-      return item.value > 0 && got > 0 ? item.value / got : got > item.value ? 0 : without_end;
+      return item.value > 0 && got > 0 ? item.value / got : got > item.value ? 0 : infinite;
     case Kind::between:
       return share(std::abs(got - 0.5 * (item.low + item.high)), 0.5 * (item.high - item.low));
     case Kind::equal:
       break;
   }
-  return without_end;
+  return infinite;
 }
 
 void judge_number(const Expectation& item, double got, Verdict& verdict) {
@@ -78,7 +78,7 @@ Verdict judge(const Expectation& item, const Json& metrics) {
   verdict.place = item.place.text();
   verdict.expected = item.kind == Expectation::Kind::equal ? item.text_value : short_number(item.value);
   const Json* value = find_key(metrics, item.key);
-  verdict.used = without_end;
+  verdict.used = infinite;
   if (!value) {
     verdict.got = "no such key";
   } else if (item.kind == Expectation::Kind::equal) {
@@ -128,7 +128,7 @@ std::vector<Verdict> verdicts_of(const Json& json) {
     Verdict v;
     v.passed = item.value("passed", false);
     // JSON has no infinity; it is stored as null
-    v.used = item.contains("used") && item["used"].is_number() ? item["used"].get<double>() : without_end;
+    v.used = item.contains("used") && item["used"].is_number() ? item["used"].get<double>() : infinite;
     for (const auto& [key, into] : {std::pair{"key", &v.key},
                                     {"expected", &v.expected},
                                     {"got", &v.got},

@@ -9,7 +9,7 @@
 namespace erbs::lua {
 namespace {
 
-using Verdict = study::MapRun::Verdict;
+using RunVerdict = study::MapRun::Verdict;
 
 const char* name_of(const study::Scheme& s) {
   return !s.sequential ? "leapfrog" : s.explicit_damping ? "sequential, explicit damping" : "sequential, centred damping";
@@ -28,13 +28,13 @@ Range range_of(const MapStudy& s) {
 // Zero damping has no logarithm; it is drawn at the left edge.
 double at_damping(const MapStudy& s, double c) { return c > 0 ? c : s.dampings.size() > 1 ? 0.1 * s.dampings[1] : 1; }
 
-std::string points(const MapStudy& s, const study::Scheme& scheme, double factor, Verdict verdict, bool rated, bool whole = true) {
+std::string points(const MapStudy& s, const study::Scheme& scheme, double factor, RunVerdict verdict, bool rated, bool whole = true) {
   std::string text;
   for (const study::MapRun& r : s.all) {
     if (r.scheme.sequential != scheme.sequential || r.scheme.explicit_damping != scheme.explicit_damping || r.factor != factor ||
-        r.verdict != verdict || (verdict == Verdict::converged && whole != (r.until >= 0.999 * s.window)))
+        r.verdict != verdict || (verdict == RunVerdict::converged && whole != (r.until >= 0.999 * s.window)))
       continue;
-    if ((verdict == Verdict::converged || verdict == Verdict::bounded) && r.ratio.has_value() != rated) continue;
+    if ((verdict == RunVerdict::converged || verdict == RunVerdict::bounded) && r.ratio.has_value() != rated) continue;
     const double shade = r.ratio ? std::clamp(std::log10(std::max(1e-9, std::fabs(*r.ratio))), -2.0, 2.0) : 0;
     text += fmt::format("{:.6g} {:.6g} {:.4g}\n", at_damping(s, r.damping), r.dt, shade);
   }
@@ -66,21 +66,21 @@ void add_curves(const MapStudy& s, const study::Scheme& scheme, double factor, p
     add(inside, "filledcurves closed fc rgb '#dcebd9'");
     add(inside, "lines lw 2 lc rgb '#3f7f3b'");
   }
-  add(points(s, scheme, factor, Verdict::diverged, false), "points pt 2 ps 0.9 lw 2 lc rgb '#b3261e'");
-  add(points(s, scheme, factor, Verdict::ledger, false), "points pt 1 ps 1.1 lw 2 lc rgb '#d07a1e'");
-  add(points(s, scheme, factor, Verdict::failed, false), "points pt 3 ps 0.9 lw 1 lc rgb '#777777'");
-  add(points(s, scheme, factor, Verdict::bounded, false), "points pt 8 ps 1.3 lw 2 lc rgb '#777777'");
-  add(points(s, scheme, factor, Verdict::bounded, true), "points pt 8 ps 1.3 lw 2 lc palette", "1:2:3");
+  add(points(s, scheme, factor, RunVerdict::diverged, false), "points pt 2 ps 0.9 lw 2 lc rgb '#b3261e'");
+  add(points(s, scheme, factor, RunVerdict::ledger, false), "points pt 1 ps 1.1 lw 2 lc rgb '#d07a1e'");
+  add(points(s, scheme, factor, RunVerdict::failed, false), "points pt 3 ps 0.9 lw 1 lc rgb '#777777'");
+  add(points(s, scheme, factor, RunVerdict::bounded, false), "points pt 8 ps 1.3 lw 2 lc rgb '#777777'");
+  add(points(s, scheme, factor, RunVerdict::bounded, true), "points pt 8 ps 1.3 lw 2 lc palette", "1:2:3");
   for (const bool whole : {false, true}) {
     const std::string mark = fmt::format("points pt {} ps 1.4 lw 2.5 lc ", whole ? 7 : 6);
-    add(points(s, scheme, factor, Verdict::converged, false, whole), mark + "rgb '#777777'");
-    add(points(s, scheme, factor, Verdict::converged, true, whole), mark + "palette", "1:2:3");
+    add(points(s, scheme, factor, RunVerdict::converged, false, whole), mark + "rgb '#777777'");
+    add(points(s, scheme, factor, RunVerdict::converged, true, whole), mark + "palette", "1:2:3");
   }
 }
 
 // The legend of the marks, in one row at the bottom.
 void add_legend(const MapStudy& s, std::vector<plot::Label>& labels) {
-  const auto any = [&](Verdict verdict, bool whole) {
+  const auto any = [&](RunVerdict verdict, bool whole) {
     return std::any_of(s.all.begin(), s.all.end(),
                        [&](const study::MapRun& r) { return r.verdict == verdict && whole == (r.until >= 0.999 * s.window); });
   };
@@ -91,9 +91,9 @@ void add_legend(const MapStudy& s, std::vector<plot::Label>& labels) {
     x += 0.035 + 0.0052 * double(text.size());
   };
   const char* blue = "#2b8cbe";
-  if (any(Verdict::converged, true)) add("bounded over the window", x, 0.038, 7, 1.4, blue);
-  if (any(Verdict::converged, false)) add("bounded over the beginning of the window, not run further", x, 0.038, 6, 1.4, blue);
-  if (any(Verdict::bounded, false)) add("bounded so far, out of time", x, 0.038, 8, 1.3, blue);
+  if (any(RunVerdict::converged, true)) add("bounded over the window", x, 0.038, 7, 1.4, blue);
+  if (any(RunVerdict::converged, false)) add("bounded over the beginning of the window, not run further", x, 0.038, 6, 1.4, blue);
+  if (any(RunVerdict::bounded, false)) add("bounded so far, out of time", x, 0.038, 8, 1.3, blue);
   add("diverged, reported by the run", x, 0.038, 2, 0.9, "#b3261e");
   // in the second row, where it always has room
   add("bounded, with energy fed by the scheme itself", 0.5975, 0.014, 1, 1.1, "#d07a1e");

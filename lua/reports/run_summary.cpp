@@ -3,6 +3,7 @@
 #include <cstdio>
 
 #include "engine/analysis/diagnostics.h"
+#include "engine/record/format/json.h"
 #include "engine/record/performance/performance.h"
 #include "engine/record/results/collapse.h"
 #include "engine/record/results/metrics.h"
@@ -11,11 +12,6 @@
 
 namespace erbs::lua {
 namespace {
-
-double number_at(const Json& metrics, const char* key) {
-  const Json* value = find_key(metrics, key);
-  return value && value->is_number() ? value->get<double>() : 0;
-}
 
 std::string collapse_text(const Analysis& how, const Json& metrics) {
   const Json* collapsed = find_key(metrics, "collapse.collapsed");

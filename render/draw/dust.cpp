@@ -6,23 +6,12 @@
 #include <map>
 
 #include "engine/base/units.h"
+#include "render/draw/scatter.h"
 
 namespace erbs::render {
 namespace {
 
 constexpr double life = 2.2;  // s, after which a cloud is gone
-
-// A number in 0..1 that is the same in every run.
-double scatter(unsigned x) {
-  x = (x ^ 61U) ^ (x >> 16U);
-  x *= 9U;
-  x ^= x >> 4U;
-  x *= 0x27d4eb2dU;
-  x ^= x >> 15U;
-  return static_cast<double>(x & 0xffffU) / 65535.0;
-}
-
-Vec3 place_of(const MotionFrame& f, std::size_t b) { return Eigen::Map<const Eigen::Vector3f>(&f.poses[7 * b]).cast<double>(); }
 
 Vec3 extent_of(const MotionScene& scene, const MotionBlock& block) {
   Eigen::AlignedBox3d box;
@@ -57,12 +46,12 @@ void ImpactFinder::add(MotionFrame frame) {
   std::map<std::array<long, 3>, Impact> here;
   for (std::size_t i = 0; i < scene_.blocks.size() && first > 0 && second > 0; ++i) {
     if (scene_.blocks[i].fixed || !exposed[i]) continue;
-    const Vec3 before = (place_of(b, i) - place_of(a, i)) / first, after = (place_of(c, i) - place_of(b, i)) / second;
+    const Vec3 before = (position_of(b, i) - position_of(a, i)) / first, after = (position_of(c, i) - position_of(b, i)) / second;
     if (!before.allFinite() || !after.allFinite() || !(after.norm() < before.norm())) continue;
     const Vec3 lost = before - after - 0.5 * (first + second) * Vec3(0, 0, standard_g);  // beyond a free fall
     if (!(lost.norm() > least_blow)) continue;
     const Vec3 extent = extent_of(scene_, scene_.blocks[i]);
-    Impact blow{b.t, place_of(b, i) - Vec3(0, 0, 0.5 * extent.minCoeff()), lost.norm(), std::cbrt(extent.prod()),
+    Impact blow{b.t, position_of(b, i) - Vec3(0, 0, 0.5 * extent.minCoeff()), lost.norm(), std::cbrt(extent.prod()),
                 static_cast<unsigned>(7919 * i + impacts.size())};
     std::array<long, 3> cell{};
     for (int k = 0; k < 3; ++k) cell[static_cast<std::size_t>(k)] = std::lround(std::floor(blow.at[k] / std::max(1e-3, 1.5 * blow.size)));

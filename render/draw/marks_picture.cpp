@@ -6,7 +6,7 @@
 namespace erbs::render {
 namespace {
 
-constexpr Ink halo{255, 255, 255, 0.62}, panel{250, 251, 252, 0.80}, text_ink{38, 42, 48, 1};
+constexpr Ink halo{255, 255, 255, 0.62};
 
 struct Line {
   double x0, y0, x1, y1;

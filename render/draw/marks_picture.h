@@ -5,6 +5,8 @@
 
 namespace erbs::render {
 
+inline constexpr Ink text_ink{38, 42, 48, 1}, panel{250, 251, 252, 0.80};  // of what is written upon a picture
+
 // unit: px per row of a picture with 720 rows.
 void draw_marks(Image& image, const Marks& marks, const View& view, double unit);
 // Below a legend that ends at row `top` (px); `margin` in rows of a picture with 720 rows.

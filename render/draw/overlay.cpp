@@ -9,7 +9,7 @@
 namespace erbs::render {
 namespace {
 
-constexpr Ink text_ink{38, 42, 48, 1}, quiet_ink{95, 102, 110, 1}, panel{250, 251, 252, 0.80}, accent{176, 48, 28, 1};
+constexpr Ink quiet_ink{95, 102, 110, 1}, accent{176, 48, 28, 1};
 constexpr double margin = 22;  // in rows of a picture with 720 rows, as all lengths here
 
 // The record at time t: linear between rows, zero outside.

@@ -3,20 +3,11 @@
 #include <array>
 #include <cmath>
 
+#include "render/draw/scatter.h"
 #include "render/draw/visible.h"
 
 namespace erbs::render {
 namespace {
-
-// A number in -1..1 that is the same for the same block in every run.
-double scatter(std::uint32_t x) {
-  x = (x ^ 61U) ^ (x >> 16U);
-  x *= 9U;
-  x ^= x >> 4U;
-  x *= 0x27d4eb2dU;
-  x ^= x >> 15U;
-  return static_cast<double>(x & 0xffffU) / 32767.5 - 1.0;
-}
 
 // Distance (m) between the two sides of a joint, slip included; largest over its corners.
 float parted(const MotionScene& scene, const MotionJoint& joint, const MotionFrame& f) {
@@ -107,7 +98,7 @@ Show prepare_show(const MotionScene& scene, const Run& run, Stage stage, std::ve
     const std::size_t m = paint(scene.blocks[i]);
     const Vec3 color = m < run.materials.size() ? run.materials[m].color : Vec3(0.45, 0.43, 0.40);
     const auto seed = static_cast<std::uint32_t>(i);
-    const double amount = uses[m] > 20 ? 1.0 : 0.0, tone = scatter(seed), hue = scatter(seed + 7919U);
+    const double amount = uses[m] > 20 ? 1.0 : 0.0, tone = 2 * scatter(seed) - 1, hue = 2 * scatter(seed + 7919U) - 1;
     show.block_color.push_back(color.cwiseProduct(Vec3::Constant(1 + 0.17 * amount * tone) + amount * hue * Vec3(0.0, 0.06, 0.09)));
   }
   return show;

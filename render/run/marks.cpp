@@ -18,11 +18,6 @@ const Vec3 force_color{0.02, 0.09, 0.32}, thrust_color{0.55, 0.0, 0.16}, motion_
 constexpr double widest = 9, thinnest_share = 0.015;        // px; of the scale, below which a force is not drawn
 constexpr double widest_thrust = 8, thinnest_thrust = 0.6;  // px
 
-Vec3 place_of(const MotionFrame& f, std::size_t b) { return Eigen::Map<const Eigen::Vector3f>(&f.poses[7 * b]).cast<double>(); }
-Eigen::Quaterniond turn_of(const MotionFrame& f, std::size_t b) {
-  const float* p = &f.poses[7 * b];
-  return Eigen::Quaterniond(p[3], p[4], p[5], p[6]).normalized();
-}
 Vec3 vector_of(const std::vector<float>& values, std::size_t j) { return Eigen::Map<const Eigen::Vector3f>(&values[3 * j]).cast<double>(); }
 
 // The compression that a joint carries.
@@ -39,12 +34,12 @@ Thrust thrust_of(const MotionScene& scene, std::size_t j, const MotionFrame& act
   const auto a = static_cast<std::size_t>(joint.a);
   const Vec3 n = joint_normal(scene, joint), pull = vector_of(actual.force, j);
   Thrust thrust;
-  const Eigen::Quaterniond back = turn_of(actual, a).conjugate();
+  const Eigen::Quaterniond back = rotation_of(actual, a).conjugate();
   thrust.force = -n.dot(back * pull);
   if (!(thrust.force > 0)) return {};
-  thrust.along = turn_of(drawn, a) * n;
-  thrust.pull = turn_of(drawn, a) * (back * pull);
-  thrust.at = place_of(drawn, a) + turn_of(drawn, a) * (back * (vector_of(actual.force_at, j) - place_of(actual, a)));
+  thrust.along = rotation_of(drawn, a) * n;
+  thrust.pull = rotation_of(drawn, a) * (back * pull);
+  thrust.at = position_of(drawn, a) + rotation_of(drawn, a) * (back * (vector_of(actual.force_at, j) - position_of(actual, a)));
   if (!thrust.at.allFinite() || !thrust.along.allFinite()) return {};
   return thrust;
 }
@@ -69,7 +64,7 @@ void add_forces(const MotionScene& scene, const std::vector<Thrust>& thrusts, co
     const Thrust& t = thrusts[j];
     if (t.force < thinnest_share * scale) continue;
     const auto [a, b] = std::pair(static_cast<std::size_t>(scene.joints[j].a), static_cast<std::size_t>(scene.joints[j].b));
-    double before = std::fabs((t.at - place_of(drawn, a)).dot(t.along)), after = std::fabs((place_of(drawn, b) - t.at).dot(t.along));
+    double before = std::fabs((t.at - position_of(drawn, a)).dot(t.along)), after = std::fabs((position_of(drawn, b) - t.at).dot(t.along));
     if (scene.blocks[a].fixed) before = std::min(before, after);  // the ground is large
     if (scene.blocks[b].fixed) after = std::min(after, before);
     marks.strokes.push_back({t.at - before * t.along, t.at + after * t.along, widest * std::min(1.0, t.force / scale), force_color, false});
@@ -91,7 +86,7 @@ Eigen::AlignedBox3d extent_of(const MotionScene& scene, const MotionBlock& block
 // lies within the block: thrust does not leave the masonry.
 Vec3 meeting_of(const std::vector<Thrust>& thrusts, const std::vector<std::size_t>& joints, const MotionScene& scene, std::size_t b,
                 const MotionFrame& drawn) {
-  const Vec3 centroid = place_of(drawn, b);
+  const Vec3 centroid = position_of(drawn, b);
   Mat3 sum = Mat3::Zero();
   Vec3 right = Vec3::Zero(), mean = Vec3::Zero(), rest = Vec3::Zero();
   double all = 0;
@@ -110,7 +105,7 @@ Vec3 meeting_of(const std::vector<Thrust>& thrusts, const std::vector<std::size_
   const double share = 0.03 * all;
   sum += share * Mat3::Identity(), right += share * mean / all;
   const Eigen::AlignedBox3d box = extent_of(scene, scene.blocks[b]);
-  const Eigen::Quaterniond turn = turn_of(drawn, b);
+  const Eigen::Quaterniond turn = rotation_of(drawn, b);
   const Vec3 within = turn.conjugate() * (Vec3(sum.ldlt().solve(right)) - centroid);
   return centroid + turn * Vec3(within.cwiseMax(0.9 * box.min()).cwiseMin(0.9 * box.max()));
 }
@@ -123,7 +118,7 @@ std::pair<Vec3, double> middle_of(const MotionScene& scene, std::size_t j, const
   double reach = 0;
   for (const Vec3& p : joint.polygon) reach = std::max(reach, (p - middle).norm());
   const auto a = static_cast<std::size_t>(joint.a);
-  return {place_of(drawn, a) + turn_of(drawn, a) * middle, reach};
+  return {position_of(drawn, a) + rotation_of(drawn, a) * middle, reach};
 }
 
 // Through the centres of pressure of a block that is pressed from two sides, as voussoirs and drums are. In other blocks it branches, from
@@ -152,7 +147,7 @@ void add_thrust_line(const MotionScene& scene, std::vector<Thrust> thrusts, cons
   };
   for (std::size_t b = 0; b < loaded.size(); ++b) {
     const std::vector<std::size_t>& joints = loaded[b];
-    if (joints.size() < 2 || scene.blocks[b].fixed || hidden[b] || !place_of(drawn, b).allFinite()) continue;
+    if (joints.size() < 2 || scene.blocks[b].fixed || hidden[b] || !position_of(drawn, b).allFinite()) continue;
     const auto outward = [&](std::size_t j) {
       return static_cast<std::size_t>(scene.joints[j].a) == b ? thrusts[j].along : Vec3(-thrusts[j].along);
     };
@@ -200,7 +195,7 @@ std::vector<std::size_t> spread(const MotionScene& scene, const Stage& stage) {
 void add_mechanism(const MotionScene& scene, const Stage& stage, const MotionFrame& drawn, const Rates& rates, double scale, Marks& marks) {
   const double longest = 0.16 * stage.size(), span = longest / scale;  // s
   for (const std::size_t b : spread(scene, stage)) {
-    const Vec3 centre = place_of(drawn, b), way = span * rates.velocity[b];
+    const Vec3 centre = position_of(drawn, b), way = span * rates.velocity[b];
     if (!centre.allFinite() || !way.allFinite()) continue;
     const double share = way.norm() / longest;
     if (share < 0.03) continue;
@@ -228,8 +223,8 @@ Rates rates_between(const MotionFrame& before, const MotionFrame& after) {
   const double seconds = after.t - before.t;
   if (!(seconds > 0)) return rates;
   for (std::size_t b = 0; b < blocks; ++b) {
-    rates.velocity[b] = (place_of(after, b) - place_of(before, b)) / seconds;
-    Eigen::Quaterniond turn = turn_of(after, b) * turn_of(before, b).conjugate();
+    rates.velocity[b] = (position_of(after, b) - position_of(before, b)) / seconds;
+    Eigen::Quaterniond turn = rotation_of(after, b) * rotation_of(before, b).conjugate();
     if (turn.w() < 0) turn.coeffs() *= -1;
     const Eigen::AngleAxisd rotation(turn);
     rates.spin[b] = rotation.angle() / seconds * rotation.axis();

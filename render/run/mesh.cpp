@@ -8,14 +8,9 @@
 namespace erbs::render {
 namespace {
 
-Vec3 corner(const MotionShape& s, int i) {
-  const std::size_t k = 3 * static_cast<std::size_t>(i);
-  return {s.vertices[k], s.vertices[k + 1], s.vertices[k + 2]};
-}
-
 Loop loop_of(const MotionShape& shape, const std::vector<int>& face) {
   Loop loop;
-  for (int i : face) loop.push_back(corner(shape, i));
+  for (int i : face) loop.push_back(corner_of(shape, i));
   return loop;
 }
 
@@ -170,7 +165,7 @@ std::vector<Vec3> grown(const MotionShape& shape, double grow) {
     }
   }
   for (std::size_t i = 0; i < count; ++i)
-    result.push_back(corner(shape, static_cast<int>(i)) + grow * (planes[i] + 1e-6 * Mat3::Identity()).inverse() * sums[i]);
+    result.push_back(corner_of(shape, static_cast<int>(i)) + grow * (planes[i] + 1e-6 * Mat3::Identity()).inverse() * sums[i]);
   return result;
 }
 

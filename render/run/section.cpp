@@ -9,11 +9,6 @@
 namespace erbs::render {
 namespace {
 
-Vec3 corner(const MotionShape& s, int i) {
-  const std::size_t k = 3 * static_cast<std::size_t>(i);
-  return {s.vertices[k], s.vertices[k + 1], s.vertices[k + 2]};
-}
-
 std::vector<Vec3> part_of(const std::vector<Vec3>& loop, const Vec3& n, double d) {
   std::vector<Vec3> part;
   cut_polygon(
@@ -26,7 +21,7 @@ std::vector<Vec3> part_of(const std::vector<Vec3>& loop, const Vec3& n, double d
 int corner_at(MotionShape& shape, const Vec3& p, double weld) {
   const int count = static_cast<int>(shape.vertices.size() / 3);
   for (int i = 0; i < count; ++i)
-    if ((corner(shape, i) - p).norm() <= weld) return i;
+    if ((corner_of(shape, i) - p).norm() <= weld) return i;
   for (int k = 0; k < 3; ++k) shape.vertices.push_back(static_cast<float>(p[k]));
   return count;
 }
@@ -36,10 +31,10 @@ std::vector<int> cut_face(const MotionShape& shape, const Vec3& n, double d, dou
   std::vector<int> face;
   Vec3 middle = Vec3::Zero();
   for (int i = 0; 3 * static_cast<std::size_t>(i) < shape.vertices.size(); ++i)
-    if (std::abs(n.dot(corner(shape, i)) - d) <= weld) face.push_back(i), middle += corner(shape, i);
+    if (std::abs(n.dot(corner_of(shape, i)) - d) <= weld) face.push_back(i), middle += corner_of(shape, i);
   middle /= static_cast<double>(std::max<std::size_t>(1, face.size()));
   const Vec3 u = n.unitOrthogonal(), v = u.cross(n);  // u, v, -n are right-handed
-  const auto angle = [&](int i) { return std::atan2(v.dot(corner(shape, i) - middle), u.dot(corner(shape, i) - middle)); };
+  const auto angle = [&](int i) { return std::atan2(v.dot(corner_of(shape, i) - middle), u.dot(corner_of(shape, i) - middle)); };
   std::sort(face.begin(), face.end(), [&](int i, int j) { return angle(i) < angle(j); });
   return face;
 }
@@ -50,7 +45,7 @@ Eigen::AlignedBox3d extent(const MotionScene& scene, const std::vector<bool>& le
     if (left_out[b]) continue;
     for (int part : scene.blocks[b].parts)
       for (int i = 0; 3 * static_cast<std::size_t>(i) < scene.shapes[static_cast<std::size_t>(part)].vertices.size(); ++i)
-        box.extend(scene.blocks[b].rest + corner(scene.shapes[static_cast<std::size_t>(part)], i));
+        box.extend(scene.blocks[b].rest + corner_of(scene.shapes[static_cast<std::size_t>(part)], i));
   }
   return box;
 }
@@ -61,8 +56,8 @@ MotionShape cut_shape(const MotionShape& shape, const Vec3& n, double d) {
   Eigen::AlignedBox3d box;
   double least = HUGE_VAL, most = -HUGE_VAL;
   for (int i = 0; 3 * static_cast<std::size_t>(i) < shape.vertices.size(); ++i) {
-    box.extend(corner(shape, i));
-    least = std::min(least, n.dot(corner(shape, i)) - d), most = std::max(most, n.dot(corner(shape, i)) - d);
+    box.extend(corner_of(shape, i));
+    least = std::min(least, n.dot(corner_of(shape, i)) - d), most = std::max(most, n.dot(corner_of(shape, i)) - d);
   }
   const double weld = 1e-5 * box.sizes().norm();  // corners are floats
   if (least >= -weld) return shape;
@@ -70,7 +65,7 @@ MotionShape cut_shape(const MotionShape& shape, const Vec3& n, double d) {
   MotionShape part;
   for (const std::vector<int>& face : shape.faces) {
     std::vector<Vec3> loop;
-    for (int i : face) loop.push_back(corner(shape, i));
+    for (int i : face) loop.push_back(corner_of(shape, i));
     std::vector<int> kept;
     for (const Vec3& p : part_of(loop, n, d)) {
       const int i = corner_at(part, p, weld);

@@ -6,13 +6,13 @@
 namespace erbs::render {
 namespace {
 
-constexpr double cell = 12;  // px
+constexpr double cell_size = 12;  // px
 
-using Span = std::pair<double, double>;
+using Stretch = std::pair<double, double>;
 
 // Cuts [from, to] out of disjoint spans.
-void subtract(std::vector<Span>& spans, double from, double to) {
-  std::vector<Span> left;
+void subtract(std::vector<Stretch>& spans, double from, double to) {
+  std::vector<Stretch> left;
   for (const auto& [a, b] : spans) {
     if (to <= a || from >= b) {
       left.emplace_back(a, b);
@@ -70,8 +70,8 @@ Vec3 Projection::nearness(const Vec3& n, double d) const {
 
 HiddenLines::HiddenLines(const Projection& projection, int width, int height, double eps)
     : projection_(projection),
-      columns_(static_cast<int>(width / cell) + 1),
-      rows_(static_cast<int>(height / cell) + 1),
+      columns_(static_cast<int>(width / cell_size) + 1),
+      rows_(static_cast<int>(height / cell_size) + 1),
       eps_(eps),
       cells_(static_cast<std::size_t>(columns_ * rows_)) {}
 
@@ -106,8 +106,10 @@ void HiddenLines::add_face(const std::vector<Vec3>& world, int body) {
   if (!face.nearness.allFinite()) return;
   Eigen::AlignedBox2d box;
   for (const Eigen::Vector2d& p : face.corners) box.extend(p);
-  const auto column = [&](double x) { return static_cast<int>(std::clamp(std::floor(x / cell), -1.0, static_cast<double>(columns_))); };
-  const auto row = [&](double y) { return static_cast<int>(std::clamp(std::floor(y / cell), -1.0, static_cast<double>(rows_))); };
+  const auto column = [&](double x) {
+    return static_cast<int>(std::clamp(std::floor(x / cell_size), -1.0, static_cast<double>(columns_)));
+  };
+  const auto row = [&](double y) { return static_cast<int>(std::clamp(std::floor(y / cell_size), -1.0, static_cast<double>(rows_))); };
   const int index = static_cast<int>(faces_.size());
   for (int y = std::max(0, row(box.min().y())); y <= std::min(rows_ - 1, row(box.max().y())); ++y)
     for (int x = std::max(0, column(box.min().x())); x <= std::min(columns_ - 1, column(box.max().x())); ++x)
@@ -118,16 +120,16 @@ void HiddenLines::add_face(const std::vector<Vec3>& world, int body) {
 // Faces in the cells that the line from p to q passes, each once.
 std::vector<int> HiddenLines::faces_near(const Eigen::Vector2d& p, const Eigen::Vector2d& q) const {
   std::vector<int> found;
-  const int first = std::clamp(static_cast<int>(std::floor(std::min(p.y(), q.y()) / cell)), 0, rows_ - 1);
-  const int last = std::clamp(static_cast<int>(std::floor(std::max(p.y(), q.y()) / cell)), 0, rows_ - 1);
+  const int first = std::clamp(static_cast<int>(std::floor(std::min(p.y(), q.y()) / cell_size)), 0, rows_ - 1);
+  const int last = std::clamp(static_cast<int>(std::floor(std::max(p.y(), q.y()) / cell_size)), 0, rows_ - 1);
   for (int y = first; y <= last; ++y) {
     double low = 0, high = 1;  // of the line, within this row
-    keep_positive(p.y() - y * cell + 1e-6, q.y() - p.y(), low, high);
-    keep_positive((y + 1) * cell - p.y() + 1e-6, p.y() - q.y(), low, high);
+    keep_positive(p.y() - y * cell_size + 1e-6, q.y() - p.y(), low, high);
+    keep_positive((y + 1) * cell_size - p.y() + 1e-6, p.y() - q.y(), low, high);
     if (high < low) continue;
     const double x0 = p.x() + low * (q.x() - p.x()), x1 = p.x() + high * (q.x() - p.x());
-    const int from = std::clamp(static_cast<int>(std::floor(std::min(x0, x1) / cell)), 0, columns_ - 1);
-    const int to = std::clamp(static_cast<int>(std::floor(std::max(x0, x1) / cell)), 0, columns_ - 1);
+    const int from = std::clamp(static_cast<int>(std::floor(std::min(x0, x1) / cell_size)), 0, columns_ - 1);
+    const int to = std::clamp(static_cast<int>(std::floor(std::max(x0, x1) / cell_size)), 0, columns_ - 1);
     for (int x = from; x <= to; ++x) {
       const std::vector<int>& here = cells_[static_cast<std::size_t>(y * columns_ + x)];
       found.insert(found.end(), here.begin(), here.end());
@@ -139,9 +141,10 @@ std::vector<int> HiddenLines::faces_near(const Eigen::Vector2d& p, const Eigen::
 }
 
 std::optional<HiddenLines::Sight> HiddenLines::sight(const Eigen::Vector2d& at) const {
-  if (!(at.x() >= 0 && at.y() >= 0 && at.x() < columns_ * cell && at.y() < rows_ * cell)) return std::nullopt;
+  if (!(at.x() >= 0 && at.y() >= 0 && at.x() < columns_ * cell_size && at.y() < rows_ * cell_size)) return std::nullopt;
   std::optional<Sight> nearest;
-  for (const int index : cells_[static_cast<std::size_t>(static_cast<int>(at.y() / cell) * columns_ + static_cast<int>(at.x() / cell))]) {
+  for (const int index :
+       cells_[static_cast<std::size_t>(static_cast<int>(at.y() / cell_size) * columns_ + static_cast<int>(at.x() / cell_size))]) {
     const Face& face = faces_[static_cast<std::size_t>(index)];
     const double near = face.nearness.x() * at.x() + face.nearness.y() * at.y() + face.nearness.z();
     if (nearest && near <= nearest->near) continue;
@@ -165,10 +168,10 @@ std::vector<Piece> HiddenLines::visible(const Vec3& from, const Vec3& to, int bo
   const Seen p = projection_.see(a), q = projection_.see(b);
   double low = 0, high = 1;  // of the line, within the picture
   const Eigen::Vector2d way = q.at - p.at;
-  keep_positive(p.at.x(), way.x(), low, high), keep_positive(columns_ * cell - p.at.x(), -way.x(), low, high);
-  keep_positive(p.at.y(), way.y(), low, high), keep_positive(rows_ * cell - p.at.y(), -way.y(), low, high);
+  keep_positive(p.at.x(), way.x(), low, high), keep_positive(columns_ * cell_size - p.at.x(), -way.x(), low, high);
+  keep_positive(p.at.y(), way.y(), low, high), keep_positive(rows_ * cell_size - p.at.y(), -way.y(), low, high);
   if (!(high > low)) return {};
-  std::vector<Span> spans{{low, high}};
+  std::vector<Stretch> spans{{low, high}};
   for (const int index : faces_near(p.at + low * way, p.at + high * way)) {
     const Face& face = faces_[static_cast<std::size_t>(index)];
     if (face.body >= 0 && face.body == body) continue;

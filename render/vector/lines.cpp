@@ -11,16 +11,6 @@
 namespace erbs::render {
 namespace {
 
-Vec3 place_of(const MotionFrame& f, std::size_t b) { return Eigen::Map<const Eigen::Vector3f>(&f.poses[7 * b]).cast<double>(); }
-Eigen::Quaterniond turn_of(const MotionFrame& f, std::size_t b) {
-  const float* p = &f.poses[7 * b];
-  return Eigen::Quaterniond(p[3], p[4], p[5], p[6]).normalized();
-}
-
-Vec3 corner_of(const MotionShape& shape, int i) {
-  return Eigen::Map<const Eigen::Vector3f>(&shape.vertices[3 * static_cast<std::size_t>(i)]).cast<double>();
-}
-
 constexpr double grazing = 0.12;  // cosine; cracks of a face seen more from its edge would merge to a dark stripe
 constexpr double steep = 0.3;     // cosine; on a face seen more from its edge lines may crowd
 
@@ -211,11 +201,11 @@ class Lines {
   }
 
   void add_block(std::size_t b) {
-    if (d_.show.stage.hidden[b] || !place_of(d_.frame, b).allFinite()) return;
+    if (d_.show.stage.hidden[b] || !position_of(d_.frame, b).allFinite()) return;
     const MotionBlock& block = d_.solid.blocks[b];
     for (const int part : block.parts)
-      add_solid(solid_of(d_.solid.shapes[static_cast<std::size_t>(part)], place_of(d_.frame, b), turn_of(d_.frame, b)), b, d_.show.ghost[b],
-                block.parts.size() > 1);
+      add_solid(solid_of(d_.solid.shapes[static_cast<std::size_t>(part)], position_of(d_.frame, b), rotation_of(d_.frame, b)), b,
+                d_.show.ghost[b], block.parts.size() > 1);
   }
 
   void add_table() {
@@ -233,7 +223,7 @@ class Lines {
   std::pair<Vec3, Vec3> ends(const MotionJoint& joint, const Vec3& p) const {
     const auto a = static_cast<std::size_t>(joint.a), b = static_cast<std::size_t>(joint.b);
     const Vec3 to_b = d_.solid.blocks[b].rest - d_.solid.blocks[a].rest;
-    return {place_of(d_.frame, a) + turn_of(d_.frame, a) * p, place_of(d_.frame, b) + turn_of(d_.frame, b) * (p - to_b)};
+    return {position_of(d_.frame, a) + rotation_of(d_.frame, a) * p, position_of(d_.frame, b) + rotation_of(d_.frame, b) * (p - to_b)};
   }
   double parted(const MotionJoint& joint) const {  // m, slip included
     double most = 0;
@@ -255,9 +245,9 @@ class Lines {
     if (area_normal(polygon).dot(n) < 0) std::reverse(polygon.begin(), polygon.end());
     for (const double side : {-0.5, 0.5}) {
       const std::size_t block = side < 0 ? a : b;
-      const Eigen::Quaterniond turn = turn_of(d_.frame, block);
+      const Eigen::Quaterniond turn = rotation_of(d_.frame, block);
       const auto at = [&](const Vec3& p, double along) {
-        return Vec3(place_of(d_.frame, block) + turn * (p - (side < 0 ? Vec3(Vec3::Zero()) : to_b) + along * n));
+        return Vec3(position_of(d_.frame, block) + turn * (p - (side < 0 ? Vec3(Vec3::Zero()) : to_b) + along * n));
       };
       const double from = std::min(0.0, side * joint.thickness), to = std::max(0.0, side * joint.thickness);
       Solid bed;
@@ -306,7 +296,7 @@ class Lines {
       // From a twentieth of the damage on, as in pictures.
       if (joint.polygon.size() < 3 || (d_.frame.damage[j] < 13 && !open) || d_.show.ghost[a] || d_.show.ghost[b]) continue;
       if (!(parted(joint) < 60 * d_.show.open_crack)) continue;
-      const Vec3 n = joint_normal(d_.solid, joint), along = turn_of(d_.frame, a) * n;
+      const Vec3 n = joint_normal(d_.solid, joint), along = rotation_of(d_.frame, a) * n;
       const double turning = area_normal(joint.polygon).dot(n) < 0 ? -1 : 1;
       const int pieces = open ? 6 : 1;
       for (std::size_t i = 0; i < joint.polygon.size(); ++i)

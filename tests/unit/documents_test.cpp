@@ -9,11 +9,13 @@
 #include <string>
 #include <vector>
 
+#include "tests/support/places.h"
+
 namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path root = ERBS_SOURCE_DIR;
+const fs::path root = erbs::test::in_source("");
 
 std::vector<std::string> lines_of(const fs::path& path) {
   std::ifstream in(path);

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "tests/support/places.h"
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -37,9 +39,9 @@ std::string formatter() {
 std::string cpp_files() {
   std::string files;
   for (const char* top : {"engine", "lua", "render", "tests"})
-    for (const auto& entry : fs::recursive_directory_iterator(fs::path(ERBS_SOURCE_DIR) / top))
+    for (const auto& entry : fs::recursive_directory_iterator(fs::path(erbs::test::in_source("")) / top))
       if (entry.path().extension() == ".h" || entry.path().extension() == ".cpp")
-        files += " " + fs::relative(entry.path(), ERBS_SOURCE_DIR).string();
+        files += " " + fs::relative(entry.path(), erbs::test::in_source("")).string();
   return files;
 }
 
@@ -51,7 +53,8 @@ TEST_CASE("the tree is formatted", "[layers][format]") {
     WARN("skipped: clang-format 14 is not installed");
     return;
   }
-  const Answer answer = ask("cd '" ERBS_SOURCE_DIR "' && " + program + " --style=file --dry-run -Werror --ferror-limit=1" + cpp_files());
+  const Answer answer =
+      ask("cd '" + erbs::test::in_source("' && ") + program + " --style=file --dry-run -Werror --ferror-limit=1" + cpp_files());
   INFO("To mend: " << program << " -i FILES\n" << answer.text);
   CHECK(answer.code == 0);
 }

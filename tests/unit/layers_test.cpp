@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "tests/support/places.h"
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -121,9 +123,9 @@ std::string trouble(const std::string& file, const std::string& target, bool out
 template <class F>
 void each_file(F&& visit) {
   for (const char* top : {"engine", "lua", "render"})
-    for (const auto& entry : fs::recursive_directory_iterator(fs::path(ERBS_SOURCE_DIR) / top))
+    for (const auto& entry : fs::recursive_directory_iterator(fs::path(erbs::test::in_source("")) / top))
       if (entry.is_regular_file() && entry.path().string().find("/node_modules/") == std::string::npos)  // packages of the web page
-        visit(fs::relative(entry.path(), ERBS_SOURCE_DIR).generic_string(), entry.path());
+        visit(fs::relative(entry.path(), erbs::test::in_source("")).generic_string(), entry.path());
 }
 
 bool is_code(const fs::path& path) { return path.extension() == ".h" || path.extension() == ".cpp"; }

@@ -10,6 +10,8 @@
 #include <string>
 #include <vector>
 
+#include "tests/support/places.h"
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -126,11 +128,11 @@ TEST_CASE("no retired word is in use", "[words]") {
   std::vector<std::string> found;
   int files = 0;
   for (const char* top : {"engine", "lua", "render"})
-    for (const auto& entry : fs::recursive_directory_iterator(fs::path(ERBS_SOURCE_DIR) / top)) {
+    for (const auto& entry : fs::recursive_directory_iterator(fs::path(erbs::test::in_source("")) / top)) {
       const std::string kind = entry.path().extension().string();
       if (kind != ".h" && kind != ".cpp" && kind != ".inc") continue;
       ++files;
-      const std::string file = fs::relative(entry.path(), ERBS_SOURCE_DIR).generic_string();
+      const std::string file = fs::relative(entry.path(), erbs::test::in_source("")).generic_string();
       std::ifstream in(entry.path());
       const std::string text{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
       for (const Retired& list : retired) {

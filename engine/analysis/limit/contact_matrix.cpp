@@ -3,13 +3,9 @@
 #include <algorithm>
 #include <set>
 
+#include "engine/base/count.h"
+
 namespace erbs::analysis {
-namespace {
-
-std::size_t z(int i) { return std::size_t(i); }
-
-}  // namespace
-
 void add_force(const LimitProblem& p, const ContactPoint& contact, const Vec3& f, VecX& rows) {
   for (int side = 0; side < 2; ++side)
     if (contact.body[side] >= 0)

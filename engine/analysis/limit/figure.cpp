@@ -3,13 +3,12 @@
 #include <cmath>
 
 #include "engine/analysis/limit/report.h"
+#include "engine/base/count.h"
 #include "engine/base/units.h"
 #include "engine/record/plot/figure.h"
 
 namespace erbs::analysis {
 namespace {
-
-std::size_t z(int i) { return std::size_t(i); }
 
 // The plane that is drawn: along the push (to the right) and up.
 struct DrawnPlane {

@@ -8,11 +8,10 @@
 
 #include "engine/analysis/limit/facets.h"
 #include "engine/analysis/limit/interior_point.h"
+#include "engine/base/count.h"
 
 namespace erbs::analysis {
 namespace {
-
-std::size_t z(int i) { return std::size_t(i); }
 
 // Contact points up to which a plane problem is solved by the simplex method, whose mechanism is a single one.
 constexpr std::size_t simplex_points = 1500;

@@ -3,12 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/base/count.h"
 #include "engine/model/state.h"
 
 namespace erbs::analysis {
 namespace {
-
-std::size_t z(int i) { return std::size_t(i); }
 
 constexpr double still = 1e-3;  // share of the fastest block's speed
 

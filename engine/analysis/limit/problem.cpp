@@ -4,13 +4,12 @@
 #include <cmath>
 #include <numeric>
 
+#include "engine/base/count.h"
 #include "engine/base/units.h"
 #include "engine/loads/loads.h"
 
 namespace erbs::analysis {
 namespace {
-
-std::size_t z(int i) { return std::size_t(i); }
 
 double weight_mass(const Model& m, int b) { return m.mass[z(b)] * (m.gravity_factor.empty() ? 1 : m.gravity_factor[z(b)]); }  // kg
 

@@ -3,13 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/base/count.h"
 #include "engine/base/units.h"
 #include "engine/record/format/csv.h"
 
 namespace erbs::analysis {
 namespace {
-
-std::size_t z(int i) { return std::size_t(i); }
 
 Json to_json(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
 

@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/base/count.h"
+
 namespace erbs::analysis {
 namespace {
 
 constexpr double joint_moved = 1e-4;  // of a joint's size: it has opened or slid
-
-std::size_t z(int i) { return std::size_t(i); }
 
 }  // namespace
 

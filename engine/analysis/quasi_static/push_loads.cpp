@@ -2,14 +2,13 @@
 
 #include <algorithm>
 
+#include "engine/base/count.h"
 #include "engine/base/rotation.h"
 #include "engine/base/units.h"
 #include "engine/solve/blocks/integrate.h"
 
 namespace erbs::analysis {
 namespace {
-
-std::size_t z(int i) { return std::size_t(i); }
 
 Wave constant(double value) { return Pulse{value, -1, unbounded}; }
 

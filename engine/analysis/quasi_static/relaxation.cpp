@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "engine/analysis/start/elastic_push.h"
+#include "engine/base/count.h"
 #include "engine/base/error.h"
 #include "engine/base/units.h"
 
@@ -45,8 +46,6 @@ constexpr int control_every = 4;                         // steps between two re
 constexpr double controlled_steps = 40 * control_every;  // at least, in a period of the pieces with the loading machine
 constexpr double longest_lag = 0.5;                      // rad, of the swing on the loading machine, between two readings
 constexpr double default_step_count = 50;                // steps in a period where the structure has no elastic one
-
-std::size_t z(int i) { return std::size_t(i); }
 
 // Damping on the way to equilibrium, by name.
 // critical: mass damping of twice the circular frequency w; while the load grows, that of the elastic structure with its loading machine,

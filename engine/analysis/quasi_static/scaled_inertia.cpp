@@ -2,13 +2,12 @@
 
 #include <algorithm>
 
+#include "engine/base/count.h"
 #include "engine/base/symmetric.h"
 #include "engine/solve/linear/stiffness.h"
 
 namespace erbs::analysis {
 namespace {
-
-std::size_t z(int i) { return std::size_t(i); }
 
 // 1/s2, the largest eigenvalue of M^-1/2 K_ii M^-1/2 of each moving block; 0 for a block without joints.
 std::vector<double> block_rates(const Model& m, const State& s) {

@@ -7,6 +7,7 @@
 #include <tuple>
 #include <utility>
 
+#include "engine/base/count.h"
 #include "engine/contact/broad/approach.h"
 #include "engine/contact/law/pair_lanes.h"
 
@@ -14,7 +15,6 @@ namespace erbs {
 namespace {
 
 using std::size_t;
-size_t at(int i) { return static_cast<size_t>(i); }
 
 auto key_of(const auto& p) { return std::tie(p.a, p.b, p.part_a, p.part_b); }
 
@@ -60,7 +60,7 @@ Grid make_grid(const std::vector<OrientedBox>& parts, double margin) {
   }
   std::sort(g.sorted.begin(), g.sorted.end());
   for (const auto& [cell, i] : g.sorted) {
-    const OrientedBox& p = parts[at(i)];
+    const OrientedBox& p = parts[z(i)];
     g.x.push_back(p.centre[0]), g.y.push_back(p.centre[1]), g.z.push_back(p.centre[2]), g.radius.push_back(p.radius);
   }
   for (std::vector<double>* v : {&g.x, &g.y, &g.z, &g.radius}) v->resize(g.sorted.size() + 7);
@@ -70,13 +70,13 @@ Grid make_grid(const std::vector<OrientedBox>& parts, double margin) {
 // m, distance of the farthest point of all parts of block b from its centroid.
 double reach_of(const ContactShapes& shapes, size_t b) {
   double reach = 0;
-  for (int s = shapes.first[b]; s < shapes.first[b + 1]; ++s) reach = std::max(reach, shapes.part(at(s)).reach);
+  for (int s = shapes.first[b]; s < shapes.first[b + 1]; ++s) reach = std::max(reach, shapes.part(z(s)).reach);
   return reach;
 }
 
 // Box around part `i`, and around where it is after a `travel` (m) of its block.
 OrientedBox oriented_box(const ContactShapes& shapes, std::span<const ContactBlock> blocks, size_t i, double travel) {
-  const ContactBlock& b = blocks[at(shapes.block[i])];
+  const ContactBlock& b = blocks[z(shapes.block[i])];
   const ContactShape& shape = shapes.part(i);
   OrientedBox box;
   // relative to block 0 at rest, so that a scene 1e4 m from the origin loses no digits
@@ -94,8 +94,7 @@ class Finder {
   Finder(double margin, std::span<const double> travel, const ContactShapes& shapes, std::span<const ContactBlock> blocks,
          std::span<const std::uint8_t> loose, std::span<const std::uint64_t> excluded)
       : margin_(margin), shapes_(shapes), blocks_(blocks), loose_(loose), excluded_(excluded), parts_(shapes.of.size()) {
-    for (size_t i = 0; i < parts_.size(); ++i)
-      parts_[i] = oriented_box(shapes, blocks, i, travel.empty() ? 0 : travel[at(shapes.block[i])]);
+    for (size_t i = 0; i < parts_.size(); ++i) parts_[i] = oriented_box(shapes, blocks, i, travel.empty() ? 0 : travel[z(shapes.block[i])]);
   }
 
   std::vector<PartPair> find() {
@@ -116,14 +115,14 @@ class Finder {
   }
 
  private:
-  bool is_loose(int i) const { return loose_[at(shapes_.block[at(i)])] != 0; }
+  bool is_loose(int i) const { return loose_[z(shapes_.block[z(i)])] != 0; }
 
   // Finds the neighbours of parts [first, last) of one cell: in this cell, in the 26 around it, and among the huge parts.
   void around(const Grid& g, size_t first, size_t last) {
     const auto some = [&](size_t k) { return is_loose(g.sorted[k].second); };
     while (first < last && !some(first)) ++first;
     if (first == last) return;
-    const auto c = cell_of(parts_[at(g.sorted[first].second)].centre, g.cell);
+    const auto c = cell_of(parts_[z(g.sorted[first].second)].centre, g.cell);
     std::pair<int, int> runs[9];
     int count = 0;
     for (long x = c[0] - 1; x <= c[0] + 1; ++x) {
@@ -141,11 +140,11 @@ class Finder {
     for (; first < last; ++first) {
       if (!some(first)) continue;
       const int i = g.sorted[first].second;
-      const OrientedBox& part = parts_[at(i)];
+      const OrientedBox& part = parts_[z(i)];
       const double one[4] = {part.centre[0], part.centre[1], part.centre[2], part.radius};
       for (const auto& [from, to] : runs) {
         const int near = pair_kernels().close_balls(balls, from, to, one, margin_, close_.data());
-        for (int k = 0; k < near; ++k) visit(i, g.sorted[at(close_[at(k)])].second);
+        for (int k = 0; k < near; ++k) visit(i, g.sorted[z(close_[z(k)])].second);
       }
       for (const int j : g.huge) visit_if_near(i, j);
       judge(i);
@@ -153,15 +152,15 @@ class Finder {
   }
 
   void visit_if_near(int i, int j) {
-    const OrientedBox &p = parts_[at(i)], &q = parts_[at(j)];
+    const OrientedBox &p = parts_[z(i)], &q = parts_[z(j)];
     const double reach = p.radius + q.radius + margin_;
     if (!((Vec3::Map(p.centre) - Vec3::Map(q.centre)).squaredNorm() > reach * reach)) visit(i, j);
   }
 
   void visit(int i, int j) {
-    const int bi = shapes_.block[at(i)], bj = shapes_.block[at(j)];
-    if (bi == bj || (loose_[at(bj)] && j < i)) return;  // two loose parts are found twice; once is enough
-    if (blocks_[at(bi)].inverse_mass == 0 && blocks_[at(bj)].inverse_mass == 0) return;
+    const int bi = shapes_.block[z(i)], bj = shapes_.block[z(j)];
+    if (bi == bj || (loose_[z(bj)] && j < i)) return;  // two loose parts are found twice; once is enough
+    if (blocks_[z(bi)].inverse_mass == 0 && blocks_[z(bj)].inverse_mass == 0) return;
     candidates_[waiting_++] = j;
     if (waiting_ == 8) judge(i);
   }
@@ -169,12 +168,12 @@ class Finder {
   void judge(int i) {
     if (waiting_ == 0) return;
     const OrientedBox* other[8];
-    for (int l = 0; l < 8; ++l) other[l] = &parts_[at(candidates_[l < waiting_ ? l : 0])];
-    const unsigned close = pair_kernels().close_boxes(parts_[at(i)], other, margin_);
+    for (int l = 0; l < 8; ++l) other[l] = &parts_[z(candidates_[l < waiting_ ? l : 0])];
+    const unsigned close = pair_kernels().close_boxes(parts_[z(i)], other, margin_);
     for (int l = 0; l < waiting_; ++l) {
       if ((close >> l & 1u) == 0) continue;
-      const int j = candidates_[l], bi = shapes_.block[at(i)], bj = shapes_.block[at(j)];
-      const int pi = i - shapes_.first[at(bi)], pj = j - shapes_.first[at(bj)];
+      const int j = candidates_[l], bi = shapes_.block[z(i)], bj = shapes_.block[z(j)];
+      const int pi = i - shapes_.first[z(bi)], pj = j - shapes_.first[z(bj)];
       const PartPair f = bi < bj ? PartPair{bi, bj, pi, pj} : PartPair{bj, bi, pj, pi};
       if (!std::binary_search(excluded_.begin(), excluded_.end(), pair_key(f.a, f.b))) found_.push_back(f);
     }
@@ -224,8 +223,8 @@ std::vector<PartPair> close_parts(double margin, std::span<const double> travel,
 }
 
 bool boxes_within(double margin, const ContactShapes& shapes, std::span<const ContactBlock> blocks, const PartPair& pair) {
-  const OrientedBox one = oriented_box(shapes, blocks, at(shapes.first[at(pair.a)] + pair.part_a), 0),
-                    two = oriented_box(shapes, blocks, at(shapes.first[at(pair.b)] + pair.part_b), 0);
+  const OrientedBox one = oriented_box(shapes, blocks, z(shapes.first[z(pair.a)] + pair.part_a), 0),
+                    two = oriented_box(shapes, blocks, z(shapes.first[z(pair.b)] + pair.part_b), 0);
   const OrientedBox* other[8];
   std::ranges::fill(other, &two);
   return (pair_kernels().close_boxes(one, other, margin) & 1u) != 0;
@@ -254,7 +253,7 @@ double search(PairList& list, const ContactShapes& shapes, std::span<const Conta
   double restitution = std::numeric_limits<double>::quiet_NaN(), impact = 0;  // of the last new pair; most pairs have the same
   auto old = list.pair.begin();
   const auto leave = [&](const ContactPair& p) {
-    const bool stays = !looking[at(p.a)] && !looking[at(p.b)] && (loose[at(p.a)] || loose[at(p.b)]);
+    const bool stays = !looking[z(p.a)] && !looking[z(p.b)] && (loose[z(p.a)] || loose[z(p.b)]);
     if (stays) now.push_back(p);
     else dropped += p.tangential;
   };

@@ -25,7 +25,7 @@ double square_integral(const Vec3* x, const double* d, size_t count, const Vec3&
 }
 
 // A convex loop, clipped in place; each plane may add a corner.
-struct Loop {
+struct FaceLoop {
   Vec3 x[4 + 2 * most_faces];
   int size = 0;
 
@@ -66,7 +66,7 @@ double wall_integral(const ContactShape& a, const ContactShape& b, const PairPos
   const Vec3 n = across / length, t = n.unitOrthogonal(), s = n.cross(t);
   if (std::abs(c[e] - c[f]) > length * b.reach) return 0;
   const Vec3 middle = (c[e] - c[f]) / length * n;
-  Loop loop;
+  FaceLoop loop;
   for (const Vec3& corner : {Vec3(-t - s), Vec3(t - s), Vec3(t + s), Vec3(s - t)}) loop.x[loop.size++] = middle + reach * corner;
   for (size_t j = 0; j < b.normal.size() && loop.size > 0; ++j) loop.cut_by(pose.rotation * b.normal[j], b.offset[j]);
   if (loop.size > 0) loop.cut_by(a.normal[f], c[f]);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/base/count.h"
 #include "engine/contact/overlap/ramp.h"
 #include "engine/geometry/clip.h"
 
@@ -13,8 +14,6 @@ namespace {
 using std::size_t;
 constexpr int most_corners = most_vertices + most_faces + 2;  // a convex loop gains at most one corner per cut
 
-size_t at(int i) { return static_cast<size_t>(i); }
-
 // Vertices of B inside each face of A, as bits.
 struct Inside {
   Word of[most_faces][most_words];  // only vertices of faces that may reach A
@@ -22,14 +21,14 @@ struct Inside {
   int cut_faces = 0;
 };
 
-struct Loop {
+struct CutLoop {
   int n = 0;
   Vec3 p[most_corners];
 };
 
 // The part of `in` with value(x) = c - n.x >= 0. A loop in the plane counts only if `keep_zero`, so that it belongs to exactly one of two
 // complementary cuts. False if nothing is left.
-bool cut(const Loop& in, const Vec3& n, double c, bool keep_zero, Loop& out) {
+bool cut(const CutLoop& in, const Vec3& n, double c, bool keep_zero, CutLoop& out) {
   double d[most_corners];
   bool positive = false, negative = false;
   for (int i = 0; i < in.n; ++i) {
@@ -44,7 +43,7 @@ bool cut(const Loop& in, const Vec3& n, double c, bool keep_zero, Loop& out) {
   return out.n >= 3;
 }
 
-bool is_inside(const ContactShape& a, int f, const Vec3& x, const Fragments& w) { return w.c[f] - a.normal[at(f)].dot(x) > 0; }
+bool is_inside(const ContactShape& a, int f, const Vec3& x, const Fragments& w) { return w.c[f] - a.normal[z(f)].dot(x) > 0; }
 
 // True if all of B is on the outer side of face f of A.
 bool face_separates(const ContactShape& a, int nv, int f, const Fragments& w) {
@@ -72,7 +71,7 @@ int faces_that_reach(const ContactShape& a, const ContactShape& b, const Fragmen
   for (int k = 0; k < nv; ++k) in[k / word_bits] |= Word(is_inside(a, towards, w.v[k], w)) << k % word_bits;
   int faces = 0;
   for (int j = 0; j < nfb; ++j) {
-    const Word* mask = &b.mask[at(j * b.words)];
+    const Word* mask = &b.mask[z(j * b.words)];
     if (share_none(mask, in, b.words)) continue;
     face[faces++] = j;
     for (int k = 0; k < b.words; ++k) used[k] |= mask[k];
@@ -85,8 +84,8 @@ int faces_that_reach(const ContactShape& a, const ContactShape& b, const Fragmen
 
 // True if all of A is on the outer side of face j of B.
 bool face_of_other_separates(const ContactShape& a, const ContactShape& b, const PairPose& pose, int j) {
-  const Vec3 n = pose.rotation * b.normal[at(j)];
-  const double c = b.offset[at(j)] + n.dot(pose.shift);
+  const Vec3 n = pose.rotation * b.normal[z(j)];
+  const double c = b.offset[z(j)] + n.dot(pose.shift);
   return std::all_of(a.vertex.begin(), a.vertex.end(), [&](const Vec3& x) { return n.dot(x) >= c; });
 }
 
@@ -95,7 +94,7 @@ void place_other(const ContactShape& a, const ContactShape& b, const PairPose& p
   for (size_t f = 0; f < a.normal.size(); ++f) w.c[f] = a.offset[f] - a.normal[f].dot(pose.shift);
 }
 
-void append(Fragments& w, int face, int nearest, const Loop& loop, const Vec3& n, double c) {
+void append(Fragments& w, int face, int nearest, const CutLoop& loop, const Vec3& n, double c) {
   w.fragment.push_back({face, nearest, static_cast<int>(w.vertex.size()), loop.n});
   for (int i = 0; i < loop.n; ++i) {
     w.vertex.push_back(loop.p[i]);
@@ -104,7 +103,7 @@ void append(Fragments& w, int face, int nearest, const Loop& loop, const Vec3& n
 }
 
 // Splits face j of B, already clipped to A, where another face of A becomes the nearest.
-void split(const ContactShape& a, int j, Loop& g, Loop& h, Fragments& w) {
+void split(const ContactShape& a, int j, CutLoop& g, CutLoop& h, Fragments& w) {
   const int nf = static_cast<int>(a.normal.size());
   double least[most_faces];
   // A face of A is nearest somewhere on the loop only if its least depth is below the smallest of the greatest depths.
@@ -112,7 +111,7 @@ void split(const ContactShape& a, int j, Loop& g, Loop& h, Fragments& w) {
   for (int f = 0; f < nf; ++f) {
     double low = std::numeric_limits<double>::infinity(), high = 0;
     for (int i = 0; i < g.n; ++i) {
-      const double d = w.c[f] - a.normal[at(f)].dot(g.p[i]);
+      const double d = w.c[f] - a.normal[z(f)].dot(g.p[i]);
       low = std::min(low, d);
       high = std::max(high, d);
     }
@@ -124,29 +123,29 @@ void split(const ContactShape& a, int j, Loop& g, Loop& h, Fragments& w) {
     if (least[f] <= bound) near[count++] = f;
   }
   if (count == 1) {
-    append(w, j, near[0], g, a.normal[at(near[0])], w.c[near[0]]);
+    append(w, j, near[0], g, a.normal[z(near[0])], w.c[near[0]]);
     return;
   }
-  Loop other;
+  CutLoop other;
   for (int i = 0; i < count; ++i) {
     const int f = near[i];
-    Loop *from = &g, *to = &h, *spare = &other;
+    CutLoop *from = &g, *to = &h, *spare = &other;
     bool left = true;
     for (int k = 0; k < count && left; ++k) {
       const int e = near[k];
       if (e == f) continue;
-      left = cut(*from, a.normal[at(e)] - a.normal[at(f)], w.c[e] - w.c[f], f < e, *to);
+      left = cut(*from, a.normal[z(e)] - a.normal[z(f)], w.c[e] - w.c[f], f < e, *to);
       from = to;
       std::swap(to, spare);
     }
-    if (left) append(w, j, f, *from, a.normal[at(f)], w.c[f]);
+    if (left) append(w, j, f, *from, a.normal[z(f)], w.c[f]);
   }
 }
 
 double distance_along_edges(const ContactShape& a, const ContactShape& b, const PairPose& pose, int k) {
   constexpr double parallel = 1e-6;
   const int nb = static_cast<int>(b.edge.size());
-  Vec3 n = a.edge[at(k / nb)].cross(pose.rotation * b.edge[at(k % nb)]);
+  Vec3 n = a.edge[z(k / nb)].cross(pose.rotation * b.edge[z(k % nb)]);
   const double length = n.norm(), between = n.dot(pose.shift) / length;
   if (length < parallel) return -1;
   n /= length;
@@ -166,13 +165,13 @@ double distance(const ContactShape& a, const ContactShape& b, const PairPose& po
   if (separating_axis >= faces) return distance_along_edges(a, b, pose, separating_axis - faces);
   double least = std::numeric_limits<double>::infinity();
   if (separating_axis >= nfa) {
-    const Vec3 n = pose.rotation * b.normal[at(separating_axis - nfa)];
-    const double c = b.offset[at(separating_axis - nfa)] + n.dot(pose.shift);
+    const Vec3 n = pose.rotation * b.normal[z(separating_axis - nfa)];
+    const double c = b.offset[z(separating_axis - nfa)] + n.dot(pose.shift);
     for (const Vec3& x : a.vertex) least = std::min(least, n.dot(x) - c);
     return least;
   }
-  const Vec3 n = pose.rotation.transpose() * a.normal[at(separating_axis)];
-  const double c = a.offset[at(separating_axis)] - a.normal[at(separating_axis)].dot(pose.shift);
+  const Vec3 n = pose.rotation.transpose() * a.normal[z(separating_axis)];
+  const double c = a.offset[z(separating_axis)] - a.normal[z(separating_axis)].dot(pose.shift);
   for (const Vec3& x : b.vertex) least = std::min(least, n.dot(x) - c);
   return least;
 }
@@ -226,24 +225,24 @@ bool find_fragments(const ContactShape& a, const ContactShape& b, const PairPose
     }
     if (count < vertices) in.cut_face[in.cut_faces++] = f;
   }
-  Loop one, two;
+  CutLoop one, two;
   for (int i = 0; i < faces && !apart; ++i) {
     const int j = reaching[i];
-    const Word* mask = &b.mask[at(j * b.words)];
+    const Word* mask = &b.mask[z(j * b.words)];
     const auto outside = [&](int f) { return share_none(in.of[f], mask, b.words); };
     if (std::any_of(in.cut_face, in.cut_face + in.cut_faces, outside)) continue;
-    Loop *g = &one, *h = &two;
+    CutLoop *g = &one, *h = &two;
     g->n = 0;
-    for (int l = b.loop_first[at(j)]; l < b.loop_first[at(j) + 1]; ++l) g->p[g->n++] = w.v[b.loop[at(l)]];
+    for (int l = b.loop_first[z(j)]; l < b.loop_first[z(j) + 1]; ++l) g->p[g->n++] = w.v[b.loop[z(l)]];
     bool left = true;
     for (int k = 0; k < in.cut_faces && left; ++k) {
       const int f = in.cut_face[k];
       if (holds_all(in.of[f], mask, b.words)) continue;
-      left = cut(*g, a.normal[at(f)], w.c[f], false, *h);
+      left = cut(*g, a.normal[z(f)], w.c[f], false, *h);
       std::swap(g, h);
     }
     if (!left) continue;
-    w.n[j] = pose.rotation * b.normal[at(j)];
+    w.n[j] = pose.rotation * b.normal[z(j)];
     split(a, j, *g, *h, w);
   }
   separating_axis = -1;
@@ -258,8 +257,8 @@ Patch elastic_patch(const Fragments& w) {
   double second[6] = {};
   for (const Fragment& fragment : w.fragment) {
     const Vec3& n = w.n[fragment.face];
-    const Vec3* x = &w.vertex[at(fragment.first)];
-    const double* phi = &w.depth[at(fragment.first)];
+    const Vec3* x = &w.vertex[z(fragment.first)];
+    const double* phi = &w.depth[z(fragment.first)];
     double i0 = 0;
     Vec3 i1 = Vec3::Zero();
     for (int k = 1; k + 1 < fragment.count; ++k) {
@@ -328,12 +327,12 @@ double damping(const Fragments& w, const Vec3& normal, double chi, double limit,
       double f[3], s[3], x[3][3], change[4], i0 = 0, i1[3] = {};
       const int corner[3] = {fragment.first, fragment.first + k, fragment.first + k + 1};
       for (size_t c = 0; c < 3; ++c) {
-        const size_t from = at(corner[c]);
+        const size_t from = z(corner[c]);
         f[c] = w.depth[from];
         s[c] = chi * w.closing_speed[from];
         std::copy_n(w.vertex[from].data(), 3, x[c]);
       }
-      const Vec3 &p = w.vertex[at(corner[0])], &q = w.vertex[at(corner[1])], &r = w.vertex[at(corner[2])];
+      const Vec3 &p = w.vertex[z(corner[0])], &q = w.vertex[z(corner[1])], &r = w.vertex[z(corner[2])];
       const double dS = along * (0.5 * n.dot((q - p).cross(r - p)));
       scalar::add_product<double>(f, s, x, dS, true, i0, i1);
       scalar::clamp_change<double>(f, s, x, dS, limit - 1, true, change);

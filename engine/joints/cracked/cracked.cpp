@@ -4,12 +4,11 @@
 #include <cmath>
 #include <tuple>
 
+#include "engine/base/count.h"
 #include "engine/model/joint_packs.h"
 
 namespace erbs {
 namespace {
-
-std::size_t z(int i) { return std::size_t(i); }
 
 // True for joints compressed by gravity. Bed joints are closed and stick; head joints are open and slide freely. A pack of one kind seldom
 // needs the arithmetic of the other.

@@ -2,15 +2,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/base/count.h"
 #include "engine/joints/cracked/cracked.h"
 
 namespace erbs {
-namespace {
-
-std::size_t z(int i) { return std::size_t(i); }
-
-}  // namespace
-
 // Whether cells lie in a grid, point n b + a between the lines a and a + 1 along s, b and b + 1 along t, as quadrature() numbers them.
 Cracked::CellGrid Cracked::grid_of(const JointType& type) const {
   const double near = 1e-12 * type.radius;

@@ -2,15 +2,10 @@
 
 #include <algorithm>
 
+#include "engine/base/count.h"
 #include "engine/joints/response.h"
 
 namespace erbs {
-namespace {
-
-std::size_t z(int i) { return std::size_t(i); }
-
-}  // namespace
-
 Fading::Fading(const Model& model, State& state)
     : model_(model), state_(state), reference_(model.analysis.kernel == "reference" || model.analysis.solver == "sequential") {
   for (int j = 0; j < model.njoint; ++j)

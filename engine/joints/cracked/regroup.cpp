@@ -2,13 +2,12 @@
 // lanes of its packs are empty. The order is a function of the State alone, so a resumed run has the same.
 #include <algorithm>
 
+#include "engine/base/count.h"
 #include "engine/joints/cracked/cracked.h"
 #include "engine/model/joint_packs.h"
 
 namespace erbs {
 namespace {
-
-std::size_t z(int i) { return std::size_t(i); }
 
 constexpr unsigned full = (1U << pack_size) - 1;
 

@@ -4,13 +4,12 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/base/count.h"
 #include "engine/joints/kinematics.h"
 #include "engine/model/joint_packs.h"
 
 namespace erbs {
 namespace {
-
-std::size_t z(int i) { return std::size_t(i); }
 
 // Packs of more bytes than this do not stay in the cache. Measured for 951, 9,700, 15,000 and 29,900 blocks (0.5, 5, 7.7, 15 MB): prefetch
 // of the fourth pack ahead costs 1 % and 3 %, and saves 7 % and 30 % of a step. The processor's own prefetch ends at every page.

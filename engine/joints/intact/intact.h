@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "engine/base/system/team.h"
-#include "engine/base/wide_pages.h"
+#include "engine/base/system/wide_pages.h"
 #include "engine/joints/joint_forces.h"
 #include "engine/joints/kernels.h"
 

@@ -10,6 +10,7 @@
 #include <unordered_map>
 #include <utility>
 
+#include "engine/base/count.h"
 #include "engine/base/hash.h"
 #include "engine/base/units.h"
 #include "engine/geometry/quadrature.h"
@@ -18,9 +19,6 @@
 
 namespace erbs {
 namespace {
-
-constexpr double infinite = std::numeric_limits<double>::infinity();
-std::size_t z(int i) { return std::size_t(i); }
 
 // Integrals over a loop, summed over triangles from the origin: Int s s = A/12 ((sum s)^2 + sum s^2) over a triangle. A loop of one corner
 // has its weight (m2) there.

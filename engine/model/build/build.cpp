@@ -5,6 +5,7 @@
 #include <map>
 #include <utility>
 
+#include "engine/base/count.h"
 #include "engine/base/units.h"
 #include "engine/geometry/mass.h"
 #include "engine/model/build/add_joints.h"
@@ -16,9 +17,6 @@
 
 namespace erbs {
 namespace {
-
-constexpr double infinite = std::numeric_limits<double>::infinity();
-std::size_t z(int i) { return std::size_t(i); }
 
 void add_blocks(const Scene& scene, Model& m) {
   for (const Block& block : scene.blocks) {

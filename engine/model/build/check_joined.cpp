@@ -7,10 +7,10 @@
 #include <numeric>
 #include <utility>
 
+#include "engine/base/count.h"
+
 namespace erbs {
 namespace {
-
-std::size_t z(int i) { return std::size_t(i); }
 
 // Blocks without a joint that neither start in motion nor have free = true. Blocks of one script line are one mistake.
 void check_loose(const Scene& scene, const Interfaces& found, const std::vector<Kind>& kind, std::vector<std::string>& errors) {

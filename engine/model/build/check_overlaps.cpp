@@ -4,12 +4,12 @@
 #include <map>
 #include <tuple>
 
+#include "engine/base/count.h"
+
 namespace erbs {
 namespace {
 
 constexpr double most_slant = 5e-3;  // of the smaller edge: blocks laid a little askew in their joints
-
-std::size_t z(int i) { return std::size_t(i); }
 
 // Overlaps of blocks made by the same two script lines are one mistake. The message names the deepest and counts the others.
 struct Overlapping {

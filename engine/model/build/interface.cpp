@@ -8,6 +8,7 @@
 #include <tuple>
 #include <utility>
 
+#include "engine/base/count.h"
 #include "engine/geometry/clip.h"
 #include "engine/geometry/separation.h"
 
@@ -20,8 +21,6 @@ constexpr double least_fraction = 1e-4;  // of the smaller face: a smaller overl
 constexpr double least_facing = 0.1;     // of the smaller face: faces with a smaller overlap are not reported as unjoined
 constexpr double most_beyond = 0.25;     // of the smaller edge: a wider gap is intended
 constexpr double least_overlap = 1e-6;   // of the smaller edge: a smaller depth is round-off
-
-size_t at(int i) { return static_cast<size_t>(i); }
 
 // A part with the data that the search needs.
 struct Part {
@@ -55,13 +54,13 @@ void near_pairs(const std::vector<Part>& parts, double margin, Visit&& visit) {
   std::vector<int> order(parts.size());
   std::iota(order.begin(), order.end(), 0);
   std::sort(order.begin(), order.end(),
-            [&](int i, int j) { return std::make_pair(parts[at(i)].box.low[axis], i) < std::make_pair(parts[at(j)].box.low[axis], j); });
+            [&](int i, int j) { return std::make_pair(parts[z(i)].box.low[axis], i) < std::make_pair(parts[z(j)].box.low[axis], j); });
   std::vector<int> open;  // parts that still extend to the sweep plane
   for (int i : order) {
-    const Box& p = parts[at(i)].box;
+    const Box& p = parts[z(i)].box;
     size_t kept = 0;
     for (int j : open) {
-      const Box& q = parts[at(j)].box;
+      const Box& q = parts[z(j)].box;
       if (q.high[axis] + margin < p.low[axis]) continue;
       open[kept++] = j;
       if (((q.low.array() - margin) <= p.high.array()).all() && ((p.low.array() - margin) <= q.high.array()).all() && !visit(i, j)) return;
@@ -99,15 +98,15 @@ double forgotten(const JointRule& rule) { return rule.none ? 0 : std::max(2 * ru
 
 // Overlap of face fa of p and face fb of q, as a polygon midway between them. False if there is none, or less than `fraction` of a face.
 bool overlap_polygon(const Part& p, int fa, const Part& q, int fb, double fraction, Interface& out) {
-  const Plane& pa = p.planes[at(fa)];
-  const Plane& pb = q.planes[at(fb)];
+  const Plane& pa = p.planes[z(fa)];
+  const Plane& pb = q.planes[z(fb)];
   const Vec3 n = (pa.n - pb.n).normalized();
   const Vec3 t = n.unitOrthogonal(), s = n.cross(t);
-  const Vec3 origin = p.shape->vertices[at(p.shape->faces[at(fa)][0])];
+  const Vec3 origin = p.shape->vertices[z(p.shape->faces[z(fa)][0])];
   auto project = [&](const Polyhedron& shape, int face, bool reversed) {
     Polygon2 flat;
-    for (int v : shape.faces[at(face)]) {
-      const Vec3 r = shape.vertices[at(v)] - origin;
+    for (int v : shape.faces[z(face)]) {
+      const Vec3 r = shape.vertices[z(v)] - origin;
       flat.emplace_back(t.dot(r), s.dot(r));
     }
     if (reversed) std::reverse(flat.begin(), flat.end());
@@ -146,10 +145,10 @@ void find_faces(const Part& p, const Part& q, const JointRule& rule, int rule_in
   const double far = most + std::min(forgotten(rule), most_beyond * std::min(p.edge, q.edge));
   const double slack = facing * std::max((p.box.high - p.box.low).norm(), (q.box.high - q.box.low).norm());
   for (size_t fa = 0; fa < p.planes.size(); ++fa) {
-    const Vec3 on_a = p.shape->vertices[at(p.shape->faces[fa][0])];
+    const Vec3 on_a = p.shape->vertices[z(p.shape->faces[fa][0])];
     for (size_t fb = 0; fb < q.planes.size(); ++fb) {
       if (p.planes[fa].n.dot(q.planes[fb].n) > cosine) continue;
-      const Vec3 on_b = q.shape->vertices[at(q.shape->faces[fb][0])];
+      const Vec3 on_b = q.shape->vertices[z(q.shape->faces[fb][0])];
       const double distance = p.planes[fa].n.dot(on_b - on_a);
       if (distance < least - slack || distance > far + slack) continue;
       Interface found{p.block, q.block, p.part, q.part, static_cast<int>(fa), static_cast<int>(fb), {}, Vec3::Zero(), 0, 0, rule_index};
@@ -197,11 +196,11 @@ Interfaces find_interfaces(std::span<const InterfaceBlock> blocks, std::span<con
   std::map<std::pair<int, int>, Overlap> deepest;
   std::size_t deep = 0;
   near_pairs(parts, joined + beyond, [&](int i, int j) {
-    const bool in_order = std::make_pair(parts[at(i)].block, parts[at(i)].part) < std::make_pair(parts[at(j)].block, parts[at(j)].part);
-    const Part& p = parts[at(in_order ? i : j)];
-    const Part& q = parts[at(in_order ? j : i)];
-    const InterfaceBlock& a = blocks[at(p.block)];
-    const InterfaceBlock& b = blocks[at(q.block)];
+    const bool in_order = std::make_pair(parts[z(i)].block, parts[z(i)].part) < std::make_pair(parts[z(j)].block, parts[z(j)].part);
+    const Part& p = parts[z(in_order ? i : j)];
+    const Part& q = parts[z(in_order ? j : i)];
+    const InterfaceBlock& a = blocks[z(p.block)];
+    const InterfaceBlock& b = blocks[z(q.block)];
     if (p.block == q.block || (a.fixed && b.fixed)) return true;
     const double edge = std::min(p.edge, q.edge);
     if (boxes_overlap(p.box, q.box, least_overlap * edge)) {
@@ -215,7 +214,7 @@ Interfaces find_interfaces(std::span<const InterfaceBlock> blocks, std::span<con
     }
     if (!boxes_overlap(p.box, q.box, -joined - std::min(beyond, most_beyond * edge))) return true;
     const int rule = table.find(a.group, b.group);
-    if (rule >= 0 && !rules[at(rule)].none) find_faces(p, q, rules[at(rule)], rule, overlap, widest_gap(a, b, rules[at(rule)]), result);
+    if (rule >= 0 && !rules[z(rule)].none) find_faces(p, q, rules[z(rule)], rule, overlap, widest_gap(a, b, rules[z(rule)]), result);
     return true;
   });
   std::sort(result.all.begin(), result.all.end(), [](const Interface& x, const Interface& y) {

@@ -73,8 +73,8 @@ ExportedRun read_exported_run(const std::string& dir, double from, double to, in
   return run;
 }
 
-Triangles triangles_of(const MotionScene& scene, const std::vector<int>& parts) {
-  Triangles out;
+DrawnTriangles triangles_of(const MotionScene& scene, const std::vector<int>& parts) {
+  DrawnTriangles out;
   for (int part : parts) {
     const MotionShape& shape = scene.shapes[static_cast<std::size_t>(part)];
     for (const std::vector<int>& loop : shape.faces) {

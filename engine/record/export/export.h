@@ -50,11 +50,11 @@ struct JointField {
 std::vector<JointField> joint_fields(const MotionFrame& frame);
 
 // Flat triangles of a block's parts, with one normal a face. Relative to its centroid, axes at rest.
-struct Triangles {
+struct DrawnTriangles {
   std::vector<float> vertices, normals;  // m and unit [n*3]
   std::vector<std::uint32_t> index;      // [triangles*3]
 };
-Triangles triangles_of(const MotionScene& scene, const std::vector<int>& parts);
+DrawnTriangles triangles_of(const MotionScene& scene, const std::vector<int>& parts);
 
 // A point of a block (m, relative to its centroid, axes at rest) where a frame shows it (m).
 Eigen::Vector3f placed(const MotionFrame& frame, int block, const Eigen::Vector3f& point);

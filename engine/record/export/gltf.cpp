@@ -113,7 +113,7 @@ std::vector<std::string> write_gltf(const ExportedRun& run, const std::string& p
         materials.push_back(
             {{"pbrMetallicRoughness", {{"baseColorFactor", {c.x(), c.y(), c.z(), 1}}, {"metallicFactor", 0}, {"roughnessFactor", 0.9}}}});
       }
-      const Triangles t = triangles_of(run.scene, block.parts);
+      const DrawnTriangles t = triangles_of(run.scene, block.parts);
       if (t.index.empty()) {
         mesh->second = -1;
       } else {

@@ -9,6 +9,7 @@
 #include <filesystem>
 
 #include "engine/base/error.h"
+#include "engine/base/text.h"
 #include "engine/record/export/export.h"
 #include "engine/record/format/h5.h"
 
@@ -83,17 +84,11 @@ void put_mesh(const h5::File& file, const std::string& name, const ExportedRun& 
   for (const MotionFrame& frame : run.frames) points.append(points_of(run.scene, frame).data());
 }
 
-std::string escaped(const std::string& text) {
-  std::string out;
-  for (const char c : text) out += c == '&' ? "&amp;" : c == '<' ? "&lt;" : c == '>' ? "&gt;" : c == '"' ? "&quot;" : std::string(1, c);
-  return out;
-}
-
 // The XML of one kind of polygons.
 class Grid {
  public:
   Grid(std::string file, std::string name, const Polygons& polygons, std::size_t frames)
-      : file_(escaped(file)), name_(std::move(name)), polygons_(polygons), frames_(frames), topology_(topology_of(polygons).size()) {}
+      : file_(for_xml(file)), name_(std::move(name)), polygons_(polygons), frames_(frames), topology_(topology_of(polygons).size()) {}
 
   // Fields live on owners; each polygon takes that of its owner by the coordinates of `owner`.
   std::string text(std::size_t f, const std::string& fields) const {

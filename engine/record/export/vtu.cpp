@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "engine/base/error.h"
+#include "engine/base/text.h"
 #include "engine/record/export/export.h"
 
 namespace erbs {
@@ -73,12 +74,6 @@ std::string grid_of_joints(const ExportedRun& run, const Polygons& polygons, std
 }
 
 // For an attribute in double quotes.
-std::string escaped(const std::string& text) {
-  std::string out;
-  for (char c : text) out += c == '&' ? "&amp;" : c == '<' ? "&lt;" : c == '"' ? "&quot;" : std::string(1, c);
-  return out;
-}
-
 }  // namespace
 
 std::vector<std::string> write_vtu(const ExportedRun& run, const std::string& stem) {
@@ -89,7 +84,7 @@ std::vector<std::string> write_vtu(const ExportedRun& run, const std::string& st
     const std::string path = fmt::format("{}{}_{:05}.vtu", stem, kind, i);
     write_whole(path, grid);
     list += fmt::format("<DataSet timestep=\"{:.9g}\"{} file=\"{}\"/>\n", run.frames[i].t, part,
-                        escaped(std::filesystem::path(path).filename().string()));
+                        for_xml(std::filesystem::path(path).filename().string()));
     paths.push_back(path);
   };
   for (std::size_t i = 0; i < run.frames.size(); ++i) add(i, "", "", grid_of_blocks(run, blocks, i));

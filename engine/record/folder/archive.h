@@ -28,7 +28,7 @@ template <class T>
 inline constexpr bool is_small_eigen = std::is_same_v<T, Vec3> || std::is_same_v<T, Quat> || std::is_same_v<T, Mat3> ||
                                        std::is_same_v<T, Vec6> || std::is_same_v<T, Eigen::Vector2d>;
 template <class T>
-inline constexpr bool is_plain = std::is_trivially_copyable_v<T> || is_small_eigen<T>;
+inline constexpr bool is_plain_data = std::is_trivially_copyable_v<T> || is_small_eigen<T>;
 
 // Visitors written for reading take a non-const object; the archives below only read it.
 template <class T, class F>
@@ -47,7 +47,7 @@ class ArchiveOut {
   }
   template <class T>
   void operator()(std::string_view name, const T& value, Part = Part::carried) {
-    if constexpr (is_plain<T>) {
+    if constexpr (is_plain_data<T>) {
       head(name, sizeof(T), 1);
       put(&value, sizeof(T));
     } else if constexpr (std::is_same_v<T, std::string>) {
@@ -65,7 +65,7 @@ class ArchiveOut {
   template <class V>
   void vector(std::string_view name, const V& values) {
     using T = typename V::value_type;
-    if constexpr (is_plain<T>) {
+    if constexpr (is_plain_data<T>) {
       head(name, sizeof(T), values.size());
       put(values.data(), values.size() * sizeof(T));
     } else {
@@ -89,7 +89,7 @@ class ArchiveIn {
   }
   template <class T>
   void operator()(std::string_view name, T& value, Part = Part::carried) {
-    if constexpr (is_plain<T>) {
+    if constexpr (is_plain_data<T>) {
       expect_head(name, sizeof(T), 1);
       get(&value, sizeof(T));
     } else if constexpr (std::is_same_v<T, std::string>) {
@@ -112,7 +112,7 @@ class ArchiveIn {
   }
   template <class T>
   void vector(std::string_view name, std::vector<T>& values) {
-    if constexpr (is_plain<T>) {
+    if constexpr (is_plain_data<T>) {
       values.resize(head(name, sizeof(T)));
       get(values.data(), values.size() * sizeof(T));
     } else {
@@ -145,10 +145,10 @@ class ResultHash {
   }
   template <class T>
   void operator()(std::string_view name, const T& member, Part part) {
-    if constexpr (is_plain<T>) {
+    if constexpr (is_plain_data<T>) {
       if (part != Part::carried) add(&member, sizeof(T));
     } else if constexpr (is_vector<T>::value) {
-      if constexpr (is_plain<typename T::value_type>) {
+      if constexpr (is_plain_data<typename T::value_type>) {
         if (part != Part::carried) add(member.data(), member.size() * sizeof(typename T::value_type));
       } else {
         for (const auto& item : member) (*this)(name, item, part);

@@ -40,8 +40,10 @@ void check_identity(const h5::File& file, const std::string& dir, const char* re
       {file.path(), 0});
 }
 
+}  // namespace
+
 // Arrays of the frames. The time is written last: a frame is complete if its time exists.
-struct Frames {
+struct MotionFrames {
   std::optional<h5::Rows<float>> poses, opening;  // absent without blocks or joints
   std::optional<h5::Rows<float>> normal_stress, shear_stress, force, force_at;
   std::optional<h5::Rows<std::uint8_t>> damage;
@@ -96,9 +98,9 @@ struct Frames {
 };
 
 // motion.xdmf: a list of frames that is always complete. Each new frame overwrites the closing tags and writes them anew.
-class Sidecar {
+class MotionSidecar {
  public:
-  Sidecar(const std::string& path, std::size_t nblock) : out_(path, std::ios::binary | std::ios::trunc), path_(path), n_(nblock) {
+  MotionSidecar(const std::string& path, std::size_t nblock) : out_(path, std::ios::binary | std::ios::trunc), path_(path), n_(nblock) {
     out_ << "<?xml version=\"1.0\"?>\n<Xdmf Version=\"3.0\"><Domain>\n"
             "<Grid Name=\"blocks\" GridType=\"Collection\" CollectionType=\"Temporal\">\n";
     end_ = out_.tellp();
@@ -141,12 +143,10 @@ class Sidecar {
   std::streampos end_;
 };
 
-}  // namespace
-
 struct MotionWriter::File {
   h5::File file;
-  Frames frames;
-  std::optional<Sidecar> sidecar;
+  MotionFrames frames;
+  std::optional<MotionSidecar> sidecar;
 };
 
 MotionWriter::MotionWriter(const std::string& dir, const MotionScene& scene, bool stress)
@@ -160,7 +160,7 @@ MotionWriter::MotionWriter(const std::string& dir, const MotionScene& scene, boo
 
 MotionWriter::MotionWriter(const std::string& dir, int keep_frames)
     : file_(new File{h5::File(in(dir, "motion.h5"), h5::File::Mode::extend), {}, {}}) {
-  Frames& frames = file_->frames;
+  MotionFrames& frames = file_->frames;
   check_identity(file_->file, dir, "start it anew with --force");
   frames.open(file_->file);
   if (keep_frames < 0 || static_cast<std::size_t>(keep_frames) > frames.size())
@@ -183,7 +183,7 @@ MotionWriter& MotionWriter::operator=(MotionWriter&&) noexcept = default;
 
 void MotionWriter::write(const MotionFrame& frame) {
   ERBS_ASSERT(file_);
-  Frames& frames = file_->frames;
+  MotionFrames& frames = file_->frames;
   ERBS_ASSERT(frame.poses.size() == 7 * frames.nblock());
   ERBS_ASSERT(frame.damage.size() == frames.njoint() && frame.opening.size() == frames.njoint());
   if (frames.poses) frames.poses->append(frame.poses.data());
@@ -210,7 +210,7 @@ void MotionWriter::close() { file_.reset(); }
 struct MotionReader::File {
   h5::File file;
   MotionScene scene;
-  Frames frames;
+  MotionFrames frames;
   std::vector<double> times;
 };
 
@@ -256,7 +256,7 @@ bool MotionReader::has_forces() const { return file_->frames.force.has_value(); 
 MotionFrame MotionReader::read(int frame) const {
   const auto at = static_cast<std::size_t>(frame);
   ERBS_ASSERT(at < file_->times.size());
-  const Frames& frames = file_->frames;
+  const MotionFrames& frames = file_->frames;
   MotionFrame f{file_->times[at], std::vector<float>(7 * frames.nblock()), std::vector<std::uint8_t>(frames.njoint()),
                 std::vector<float>(frames.njoint())};
   if (frames.poses) frames.poses->read(at, f.poses.data());

@@ -16,6 +16,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/base/count.h"
 #include "engine/base/vec.h"
 
 namespace erbs {
@@ -62,6 +63,17 @@ struct MotionFrame {
   // N, of b on a, and m, where its normal part acts in the plane of the joint; world axes, empty without [joints*3]
   std::vector<float> force{}, force_at{};
 };
+
+inline Vec3 position_of(const MotionFrame& f, std::size_t block) {  // m
+  return Eigen::Map<const Eigen::Vector3f>(&f.poses[7 * block]).cast<double>();
+}
+inline Quat rotation_of(const MotionFrame& f, std::size_t block) {
+  const float* p = &f.poses[7 * block];
+  return Quat(p[3], p[4], p[5], p[6]).normalized();
+}
+inline Vec3 corner_of(const MotionShape& shape, int i) {  // m
+  return Eigen::Map<const Eigen::Vector3f>(&shape.vertices[3 * z(i)]).cast<double>();
+}
 
 class MotionWriter {
  public:

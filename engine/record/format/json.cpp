@@ -44,6 +44,11 @@ void write_text_atomically(const std::string& path, std::string_view text) {
   }
 }
 
+std::string whole_text(const std::string& path) {
+  std::ifstream stream(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+}
+
 void write_json(const std::string& path, const Json& json) {
   // Names of files and blocks may hold any bytes. Bytes that are not UTF-8 are replaced, so that the file is not lost.
   write_text_atomically(path, json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
@@ -65,6 +70,11 @@ const Json* find_key(const Json& json, std::string_view dotted) {
     }
   }
   return at;
+}
+
+double number_at(const Json& json, std::string_view dotted) {
+  const Json* value = find_key(json, dotted);
+  return value && value->is_number() ? value->get<double>() : 0;
 }
 
 }  // namespace erbs

@@ -1,5 +1,6 @@
 // A figure: panels of series on one sheet, in one style, drawn by gnuplot. Places, looks and settings are in gnuplot's own words.
 #pragma once
+#include <array>
 #include <optional>
 #include <string>
 #include <utility>
@@ -37,6 +38,9 @@ struct Panel {
   void add_vertical(double x_at, const std::string& look);
   void add_horizontal(double y_at, const std::string& look);
 };
+
+// One for each of several runs: told apart by readers who confuse red and green.
+inline constexpr std::array<const char*, 7> run_colors{"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000"};
 
 struct Figure {
   double width = 0, height = 0;  // px

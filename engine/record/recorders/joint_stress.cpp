@@ -3,13 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/base/count.h"
 #include "engine/joints/kinematics.h"
 #include "engine/joints/response.h"
 
 namespace erbs {
 namespace {
-
-std::size_t z(int i) { return std::size_t(i); }
 
 std::array<double, 6> intact_gap(const Model& m, const BlockPoses& pose, int j) {
   const Joint& joint = m.joint[z(j)];

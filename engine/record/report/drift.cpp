@@ -11,8 +11,6 @@
 namespace erbs {
 namespace {
 
-constexpr std::array<const char*, 7> colors{"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000"};
-
 // The blocks that may move, by level from below, and the height of their support.
 struct Levels {
   std::vector<std::vector<int>> blocks;
@@ -116,9 +114,9 @@ DriftProfile drift_profile(const MotionScene& scene, const std::vector<MotionFra
 }
 
 plot::Figure drift_figure(const std::vector<DriftProfile>& profiles, const std::string& note) {
-  if (profiles.size() > colors.size())
-    throw Error(
-        fmt::format("{} runs are more than a figure of drift can tell apart, which is {}; choose fewer", profiles.size(), colors.size()));
+  if (profiles.size() > plot::run_colors.size())
+    throw Error(fmt::format("{} runs are more than a figure of drift can tell apart, which is {}; choose fewer", profiles.size(),
+                            plot::run_colors.size()));
   double peak = 0, peak_drift = 0;
   std::string names;
   for (const DriftProfile& profile : profiles) {
@@ -149,7 +147,7 @@ plot::Figure drift_figure(const std::vector<DriftProfile>& profiles, const std::
             kind == 0 ? rows_of(of.displacement[axis], unit.factor, of.height, true) : rows_of(of.drift[axis], 100, of.between, false);
         const std::string name = profiles.size() > 1 ? of.run + ", " : "";
         p.series.push_back({figure.add_rows(rows) + " using 1:2",
-                            fmt::format("linespoints pt {} ps 0.5 lw 1.6 lc rgb '{}' dashtype {}", axis == 0 ? 7 : 6, colors[i],
+                            fmt::format("linespoints pt {} ps 0.5 lw 1.6 lc rgb '{}' dashtype {}", axis == 0 ? 7 : 6, plot::run_colors[i],
                                         axis == 0 ? "1" : "(6,4)"),
                             name + (axis == 0 ? "along x" : "along y")});
       }

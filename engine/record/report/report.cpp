@@ -51,7 +51,7 @@ void take_events(const CsvTable& table, ReportedRun& run) {
 double rounded(double value) { return std::round(1e6 * value) / 1e6; }  // to 1 um
 
 Json shape_json(const MotionScene& scene, const std::vector<int>& parts) {
-  const Triangles triangles = triangles_of(scene, parts);
+  const DrawnTriangles triangles = triangles_of(scene, parts);
   Json vertices = Json::array();
   for (const float v : triangles.vertices) vertices.push_back(rounded(v));
   return {{"vertices", vertices}, {"index", triangles.index}};

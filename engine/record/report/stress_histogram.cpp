@@ -12,7 +12,6 @@
 namespace erbs {
 namespace {
 
-constexpr std::array<const char*, 7> colors{"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000"};
 constexpr int about_bins = 40;
 
 double area_of(const MotionJoint& joint) {
@@ -92,8 +91,9 @@ StressBins stress_bins(const std::vector<StressSample>& samples) {
 }
 
 plot::Figure stress_figure(const std::vector<StressSample>& samples, const std::string& quantity) {
-  if (samples.size() > colors.size())
-    throw Error(fmt::format("{} runs are more than a histogram can tell apart, which is {}; choose fewer", samples.size(), colors.size()));
+  if (samples.size() > plot::run_colors.size())
+    throw Error(fmt::format("{} runs are more than a histogram can tell apart, which is {}; choose fewer", samples.size(),
+                            plot::run_colors.size()));
   const StressBins bins = stress_bins(samples);
   const plot::ShownUnit& unit = plot::shown_unit(*plot::find_unit("Pa"), greatest_of(samples));
   constexpr double height = 460;
@@ -123,8 +123,8 @@ plot::Figure stress_figure(const std::vector<StressSample>& samples, const std::
     }
     row(bins.low + double(bins.share[i].size()) * bins.width, 0);
     const std::string source = figure.add_rows(rows) + " using 1:2";
-    if (!several) p.series.push_back({source, fmt::format("filledcurves y1=0 lc rgb '{}'", colors[i])});
-    p.series.push_back({source, fmt::format("lines lw 1.6 lc rgb '{}'", colors[i]), several ? title_of(samples[i]) : ""});
+    if (!several) p.series.push_back({source, fmt::format("filledcurves y1=0 lc rgb '{}'", plot::run_colors[i])});
+    p.series.push_back({source, fmt::format("lines lw 1.6 lc rgb '{}'", plot::run_colors[i]), several ? title_of(samples[i]) : ""});
   }
   figure.panels.push_back(p);
   return figure;

@@ -5,6 +5,7 @@
 #include <limits>
 #include <map>
 
+#include "engine/base/count.h"
 #include "engine/base/error.h"
 #include "engine/base/units.h"
 
@@ -12,8 +13,6 @@ namespace erbs {
 namespace {
 
 constexpr double first_share = 0.1;  // of the mass of a group
-
-std::size_t z(int i) { return std::size_t(i); }
 
 std::vector<GroupFall> falls(const Collapse& collapse, const Model& model, const std::vector<std::string>& group) {
   struct Mass {

@@ -18,7 +18,7 @@ constexpr std::array<const char*, 5> dashes{"1", "(14,5)", "(4,4)", "(14,4,3,4)"
 constexpr std::size_t most_curves = colors.size() * dashes.size();
 
 // Places of a panel, in px.
-constexpr double left = 95, width = 720, foot = 68, gap = 26, letter = 8;
+constexpr double left = 95, width = 720, foot = 68, spacing = 26, letter = 8;
 
 struct Group {
   std::string unit;
@@ -121,10 +121,10 @@ plot::Figure curve_figure(const std::vector<HistoryCurve>& curves, CurveKind kin
 
   const double head = note.empty() ? 40 : 62;
   std::vector<double> heights;
-  double total = head + foot - gap;
+  double total = head + foot - spacing;
   for (const Group& group : groups) {
     heights.push_back(std::max(groups.size() == 1 ? 400.0 : 210.0, 21.0 * double(group.curves.size()) + 12));
-    total += heights.back() + gap;
+    total += heights.back() + spacing;
   }
   plot::Figure figure{left + width + 70 + letter * double(longest), total};
   figure.settings = "set zeroaxis lc rgb '#b0b0b0' lt 1 lw 0.8\n";
@@ -164,7 +164,7 @@ plot::Figure curve_figure(const std::vector<HistoryCurve>& curves, CurveKind kin
     }
     p.y = {axis_label(group, kind, y.unit), range_of(low, high, kind != CurveKind::history), "", "", "noenhanced"};
     figure.panels.push_back(p);
-    top += heights[g] + gap;
+    top += heights[g] + spacing;
   }
   return figure;
 }

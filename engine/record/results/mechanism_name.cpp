@@ -5,6 +5,7 @@
 #include <map>
 #include <numeric>
 
+#include "engine/base/count.h"
 #include "engine/base/error.h"
 #include "engine/base/units.h"
 
@@ -17,8 +18,6 @@ constexpr double without_turn = 0.15;  // share of the motion that comes from ro
 constexpr double thin = 0.5;           // thickness over width of a wall
 constexpr double takes_part = 0.1;     // share of the mass of a wall that moves
 constexpr double level_crack = 0.45;   // rise over run of a crack that is not yet diagonal, and run over rise: 24 degrees
-
-std::size_t z(int i) { return std::size_t(i); }
 
 // The rigid motion that is nearest to the motion of some blocks, by mass.
 struct RigidMotion {

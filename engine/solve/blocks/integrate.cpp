@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/base/count.h"
 #include "engine/model/joint_packs.h"
 
 // Rotation: the implicit midpoint rule in the body frame conserves |L| and the energy exactly, since both are quadratic. The Cayley map of
@@ -11,8 +12,6 @@
 
 namespace erbs {
 namespace {
-
-std::size_t z(int i) { return std::size_t(i); }
 
 KickDrift kick_of(const Model& m, const State& s, const Excitation& e, bool inertia) {
   KickDrift k{};

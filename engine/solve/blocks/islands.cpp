@@ -2,12 +2,11 @@
 
 #include <numeric>
 
+#include "engine/base/count.h"
 #include "engine/joints/kinematics.h"
 
 namespace erbs {
 namespace {
-
-std::size_t z(int i) { return std::size_t(i); }
 
 int root(std::vector<int>& parent, int b) {
   while (parent[z(b)] != b) b = parent[z(b)] = parent[z(parent[z(b)])];

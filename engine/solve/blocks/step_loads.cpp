@@ -3,13 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/base/count.h"
+
 namespace erbs {
-namespace {
-
-std::size_t z(int i) { return std::size_t(i); }
-
-}  // namespace
-
 StepLoads::StepLoads(const Model& model, State& state) : model_(model), state_(state) {
   if (!model.force_loads.empty()) load_.assign(block_groups(model.nblock) * pack_size, 0.0);
   for (const auto& p : model.force_loads)

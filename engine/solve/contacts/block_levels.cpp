@@ -1,14 +1,9 @@
 #include "engine/solve/contacts/block_levels.h"
 
+#include "engine/base/count.h"
 #include "engine/model/levels.h"
 
 namespace erbs {
-namespace {
-
-std::size_t z(int i) { return std::size_t(i); }
-
-}  // namespace
-
 void BlockLevels::start_macro_step(std::span<const std::uint8_t> was_slow, std::vector<std::uint8_t> slow) {
   since_.resize(block_groups(model_.nblock) * pack_size);
   next_.resize(since_.size());

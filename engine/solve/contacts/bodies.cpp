@@ -2,14 +2,13 @@
 
 #include <algorithm>
 
+#include "engine/base/count.h"
 #include "engine/contact/broad/search.h"
 #include "engine/contact/law/frame.h"
 #include "engine/model/build/add_joints.h"
 
 namespace erbs {
 namespace {
-
-std::size_t z(int i) { return std::size_t(i); }
 
 double largest_inverse_inertia(const Mat3& inverse) {
   // Gershgorin's bound by rows, exact for a block along its principal axes.

@@ -6,6 +6,7 @@
 #include <limits>
 #include <numeric>
 
+#include "engine/base/count.h"
 #include "engine/contact/law/impact_bound.h"
 #include "engine/model/levels.h"
 
@@ -21,7 +22,6 @@ constexpr double max_slip_omega_dt = 1.0;
 // fast and slow forces, err at once.
 constexpr double block_share = 2e-9;
 double interval_share(int blocks) { return block_share * std::max(16.0, blocks / 6.0); }
-std::size_t z(int i) { return std::size_t(i); }
 
 }  // namespace
 

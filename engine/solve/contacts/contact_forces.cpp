@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "engine/base/count.h"
 #include "engine/contact/law/frame.h"
 #include "engine/contact/law/impact_bound.h"
 #include "engine/joints/event_bound.h"
@@ -17,7 +18,6 @@ namespace {
 // Times the event budget: least energy m v^2 of two blocks relative to each other for which events are predicted.
 constexpr double foresee_threshold = 2;
 using Clock = std::chrono::steady_clock;
-std::size_t z(int i) { return std::size_t(i); }
 
 // m, that a body at rest falls in the first steps, or until it is fast enough for its blows to be foreseen.
 double first_fall(const ContactSettings& settings, double dt) {

@@ -3,12 +3,11 @@
 #include <algorithm>
 #include <utility>
 
+#include "engine/base/count.h"
 #include "engine/model/levels.h"
 
 namespace erbs {
 namespace {
-
-std::size_t z(int i) { return std::size_t(i); }
 
 // Adds the wrench of a pair, times `share`, to the rows of its block a, or b.
 void add_to_a(double* rows, int a, const PairWrench& wrench, double share) {

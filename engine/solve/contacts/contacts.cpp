@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "engine/base/count.h"
 #include "engine/contact/broad/search.h"
 #include "engine/joints/event_bound.h"
 #include "engine/model/build/add_joints.h"
@@ -14,8 +15,6 @@
 
 namespace erbs {
 namespace {
-
-std::size_t z(int i) { return std::size_t(i); }
 
 // m, of the list, which gets it first.
 double margin_of(PairList& list, const Model& model) {

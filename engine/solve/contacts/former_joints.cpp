@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/base/count.h"
 #include "engine/contact/broad/search.h"
 #include "engine/contact/law/frame.h"
 #include "engine/joints/cracked/fading.h"
@@ -15,7 +16,6 @@ namespace {
 constexpr double parted = 0.02;  // of the side of a former joint, and rad
 // Of `State::energy.reference`: limit of all differences in stored energy between contacts and the joints they replaced.
 constexpr double most_reset = 1.5e-3;
-std::size_t z(int i) { return std::size_t(i); }
 
 }  // namespace
 

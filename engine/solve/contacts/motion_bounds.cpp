@@ -5,17 +5,12 @@
 #include <numeric>
 #include <span>
 
+#include "engine/base/count.h"
 #include "engine/contact/law/impact_bound.h"
 #include "engine/contact/law/pair_lanes.h"
 #include "engine/model/levels.h"
 
 namespace erbs {
-namespace {
-
-std::size_t z(int i) { return std::size_t(i); }
-
-}  // namespace
-
 MotionBounds::MotionBounds(const Model& model, State& state, ContactBodies& bodies, int threads)
     : model_(model), state_(state), bodies_(bodies), fastest_loose_(z(threads)), fastest_(z(threads)) {}
 

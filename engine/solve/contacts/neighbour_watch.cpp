@@ -5,6 +5,7 @@
 #include <limits>
 #include <tuple>
 
+#include "engine/base/count.h"
 #include "engine/base/rotation.h"
 #include "engine/base/units.h"
 #include "engine/contact/broad/approach.h"
@@ -18,7 +19,6 @@ constexpr double list_margins = 3;  // margins of the list of contacts: blocks o
 constexpr double least_sine = 0.1;  // of the angle between two planes that separate blocks along an edge
 constexpr double lever = 3;  // greatest change of a gap along the normal of a face that rotates, over the path of its body's farthest point
 constexpr double greatest_acceleration = 4 * standard_g;  // towards each other, that is looked for
-std::size_t z(int i) { return std::size_t(i); }
 
 PairFrame frame(const PartPair& of, const ContactShapes& shapes, const ContactBlock& a, const ContactBlock& b) {
   return part_frame(shape_of(shapes, of.a, of.part_a), shape_of(shapes, of.b, of.part_b), a, b);

@@ -6,6 +6,8 @@
 #include <tuple>
 #include <utility>
 
+#include "engine/base/count.h"
+
 namespace erbs {
 namespace {
 
@@ -13,8 +15,7 @@ constexpr double sleep_speed = 1e-6;         // of sqrt(g L); a poured heap (har
 constexpr double sleep_acceleration = 1e-4;  // of g
 constexpr double wake_acceleration = 1e-3;   // of g; more than the dashpot forces that end when a contact at `sleep_speed` stops
 constexpr double sleep_time = 0.5;           // of sqrt(L / g)
-constexpr int update_every = 16;             // steps between two searches for still blocks
-std::size_t z(int i) { return std::size_t(i); }
+constexpr int search_every = 16;             // steps between two searches for still blocks
 
 auto key_of(const ContactPair& p) { return std::tie(p.a, p.b, p.part_a, p.part_b); }
 
@@ -140,7 +141,7 @@ bool Sleep::update(const Excitation& e, const double* contact_wrench, const Cont
   effective_gravity_ = e.gravity - e.ground;
   bool changed = wake_all();
   changed = wake_pressed(contact_wrench, blocks) || changed;
-  if (state_.time.macro % std::max(1, update_every / state_.time.substeps) == 0)
+  if (state_.time.macro % std::max(1, search_every / state_.time.substeps) == 0)
     changed = try_sleep(e.kick, contact_wrench, blocks) || changed;
   slept_ += state_.sleep.count;
   return changed;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/base/count.h"
 #include "engine/base/sparse.h"
 #include "engine/base/symmetric.h"
 #include "engine/contact/broad/search.h"
@@ -25,7 +26,6 @@ constexpr int update_every = 256;  // steps between two updates while the step c
 constexpr int update_soon = 32;    // ... and before the step becomes shorter
 constexpr int joints_every = 8;    // updates between two trials of the bound by blocks
 constexpr double little = 0.05;    // of the bound of joints: contacts that add no more need no closer bound
-std::size_t z(int i) { return std::size_t(i); }
 
 // 1 / dt^2 for an upper bound of the total stiffness on a block.
 double inverse_square(double on_a_block, double share) { return on_a_block * (1 / (2 * share * share)); }

@@ -1,14 +1,9 @@
 #include "engine/solve/linear/joint_operator.h"
 
+#include "engine/base/count.h"
 #include "engine/joints/kinematics.h"
 
 namespace erbs {
-namespace {
-
-std::size_t z(int i) { return std::size_t(i); }
-
-}  // namespace
-
 Freedom freedoms(const Model& m) {
   Freedom f;
   f.first.assign(z(m.nblock) + 1, -1);

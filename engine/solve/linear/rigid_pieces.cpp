@@ -3,12 +3,11 @@
 #include <map>
 #include <utility>
 
+#include "engine/base/count.h"
 #include "engine/solve/linear/stiffness.h"
 
 namespace erbs {
 namespace {
-
-std::size_t z(int i) { return std::size_t(i); }
 
 int number(const Freedom& f, int b) { return f.first[z(b)] < 0 ? -1 : f.first[z(b)] / 6; }
 

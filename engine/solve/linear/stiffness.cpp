@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/base/count.h"
 #include "engine/base/symmetric.h"
 #include "engine/base/units.h"
 #include "engine/joints/kinematics.h"
@@ -11,9 +12,6 @@
 
 namespace erbs {
 namespace {
-
-constexpr double infinite = std::numeric_limits<double>::infinity();
-std::size_t z(int i) { return std::size_t(i); }
 
 // Step at which dt^2 lambda(dt) reaches `most`, lambda(dt) being the largest eigenvalue with dashpots. `free`: the step without dashpots;
 // `viscous`: their greatest b. The iteration starts from the answer for equal dashpots, dt^2 + 2 b dt = free^2. Since dt^2 lambda grows

@@ -3,14 +3,13 @@
 #include <cmath>
 #include <utility>
 
+#include "engine/base/count.h"
 #include "engine/solve/linear/stiffness.h"
 
 namespace erbs {
 namespace {
 
 constexpr int piece_size = 20;  // blocks
-
-std::size_t z(int i) { return std::size_t(i); }
 
 }  // namespace
 

@@ -5,6 +5,7 @@
 #include <numeric>
 #include <utility>
 
+#include "engine/base/count.h"
 #include "engine/base/random.h"
 #include "engine/joints/intact/intact.h"
 #include "engine/joints/kinematics.h"
@@ -14,8 +15,6 @@
 
 namespace erbs {
 namespace {
-
-std::size_t z(int i) { return std::size_t(i); }
 
 void shuffle(std::vector<int>& order, std::uint64_t seed, std::uint64_t step) {
   Random random{Random{seed}.next() ^ step};

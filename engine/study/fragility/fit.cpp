@@ -10,7 +10,6 @@ namespace erbs::study {
 namespace {
 
 constexpr double confidence = 1.959963984540054;  // standard normal quantile of 97.5 %
-constexpr double infinite = std::numeric_limits<double>::infinity();
 
 double density(double x) { return std::isfinite(x) ? std::exp(-0.5 * x * x) / std::sqrt(2 * pi) : 0; }
 

@@ -8,12 +8,11 @@
 #include <map>
 #include <set>
 
+#include "engine/base/units.h"
 #include "engine/record/format/csv.h"
 
 namespace erbs::study {
 namespace {
-
-constexpr double infinite = std::numeric_limits<double>::infinity();
 
 double number_of(const std::string& cell) {
   double value = std::nan("");

@@ -21,18 +21,18 @@ constexpr const char* worker_ending = ".worker";
 constexpr auto beat_every = std::chrono::seconds(5);
 constexpr auto silence = std::chrono::seconds(180);  // file systems of a network keep attributes for up to a minute
 
-std::string machine() {
-  char name[256] = "";
-  ::gethostname(name, sizeof name - 1);
-  return name;
-}
-
 std::uint64_t inode_of(const std::string& path) {
   struct stat now {};
   return ::stat(path.c_str(), &now) == 0 ? now.st_ino : 0;
 }
 
 }  // namespace
+
+std::string machine() {
+  char name[256] = "";
+  ::gethostname(name, sizeof name - 1);
+  return name;
+}
 
 Claims::Claims(const std::string& folder) : folder_(folder), host_(machine()), beaten_(Clock::now()) {
   fs::create_directories(folder);

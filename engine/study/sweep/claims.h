@@ -40,6 +40,8 @@ class Claims {
   std::map<std::int64_t, bool> mine_;
 };
 
+std::string machine();  // its name in the network
+
 // Who works in such a folder now: a process by its name, "host-process-number"; "" if nobody does.
 std::string working_in(const std::string& folder);
 

@@ -31,12 +31,6 @@ double number_of(const std::string& cell) {
   return value;
 }
 
-std::string machine() {
-  char name[256] = "";
-  ::gethostname(name, sizeof name - 1);
-  return name;
-}
-
 template <class... Lists>
 Cells joined(const Lists&... lists) {
   Cells all;

@@ -8,6 +8,8 @@
 
 namespace erbs::lua {
 
+inline constexpr const char* identity_file = "study.json";  // in the folder of a study
+
 struct SweepStudy {
   std::string name;  // of the study file
   study::Sweep sweep;

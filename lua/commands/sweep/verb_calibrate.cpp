@@ -21,7 +21,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* identity_file = "study.json";
 constexpr const char* work_folder = "work";  // is there while a calibration is under way
 
 // Makes the folder, or takes it up. Throws Error.

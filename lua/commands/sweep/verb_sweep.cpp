@@ -26,7 +26,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* identity_file = "study.json";
 constexpr const char* files_of_sweep[] = {study::results_file, study::runs_file, identity_file, "runs", "work", "job.sh", "job_logs"};
 
 std::string in(const std::string& directory, const char* file) { return directory + "/" + file; }

@@ -8,6 +8,7 @@
 
 #include "engine/record/folder/manifest.h"
 #include "engine/record/format/csv.h"
+#include "engine/record/format/json.h"
 #include "engine/scene/scene.h"
 #include "lua/reports/accuracy/settings.h"
 #include "lua/reports/setting_runs.h"
@@ -73,11 +74,6 @@ std::size_t telling(const std::vector<study::Goal>& goals, const std::vector<stu
   return moved.empty() ? 0 : moved.front();
 }
 
-std::string text_of(const std::string& path) {
-  std::ifstream stream(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-}
-
 // A scene with its settings, before its runs.
 struct Asked {
   AccuracyStudy study;
@@ -91,7 +87,7 @@ Asked ask(const std::string& scene, const AccuracyCommand& command) {
   script.load(scene, command.scene.overrides);
   Asked asked;
   AccuracyStudy& study = asked.study;
-  study.scene = scene, study.name = script.scene().name, study.title = title_of(text_of(scene));
+  study.scene = scene, study.name = script.scene().name, study.title = title_of(whole_text(scene));
   study.command = "erbs run " + scene + " --threads 1";
   for (const auto& [name, value] : command.scene.overrides) study.command += fmt::format(" -D '{}={}'", name, value);
   if (command.scene.allow_unstable) study.command += " --allow-unstable";

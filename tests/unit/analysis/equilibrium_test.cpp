@@ -138,7 +138,7 @@ TEST_CASE("a mortared wall cracked by an eccentric load is found, and near what 
 
 namespace {
 
-Scene scene_of(const std::string& text) {
+Scene brick_scene(const std::string& text) {
   Script script(Script::Options{.quiet = true});
   return script.load_text("material{name='brick', density=1800}\n" + text + "\nanalysis{duration=1}", "scene.lua");
 }
@@ -163,16 +163,16 @@ TEST_CASE("equilibrium by iterations is that by factors", "[analysis]") {
   const Scene scenes[] = {
       // Four cases: a wall leaning out of its plane, its softest direction; an arch; a tall leaning mast; bricks beside a block on a joint
       // a hundred thousand times softer.
-      scene_of(mortar + wall + "gravity{0,.05*g,-g}"),
-      scene_of("joint{law=mortar{E=1e9, thickness=10*mm, ft=5*MPa, c=9*MPa, mu=0.6}}"
-               "arch{radius=5, thickness=.8, width=1, voussoirs=41, material='brick'}"),
-      scene_of("joint{law=mortar{E=1e9, thickness=10*mm, ft=50*MPa, c=90*MPa, mu=0.6}, thickness=10*mm, tolerance=0.1*mm}"
-               "box{name='foot', size={1,1,.1}, at={-.3,-.3,-.11}, material='brick', fixed=true}"
-               "for i=0,119 do box{name='m'..i, size={.4,.3,.1}, at={0,0,i*.11}, material='brick'} end gravity{.02*g,.01*g,-g}"),
-      scene_of(mortar +
-               "joint{between={'soft','wall'}, law=mortar{kn=1e6, ks=4e5, thickness=10*mm, ft=1*MPa, c=1*MPa, mu=0.6}, "
-               "thickness=10*mm, tolerance=0.1*mm}" +
-               wall + "box{name='loose', group='soft', size={.2,.12,.1}, at={.03,0,14*.1+.01}, material='brick'}")};
+      brick_scene(mortar + wall + "gravity{0,.05*g,-g}"),
+      brick_scene("joint{law=mortar{E=1e9, thickness=10*mm, ft=5*MPa, c=9*MPa, mu=0.6}}"
+                  "arch{radius=5, thickness=.8, width=1, voussoirs=41, material='brick'}"),
+      brick_scene("joint{law=mortar{E=1e9, thickness=10*mm, ft=50*MPa, c=90*MPa, mu=0.6}, thickness=10*mm, tolerance=0.1*mm}"
+                  "box{name='foot', size={1,1,.1}, at={-.3,-.3,-.11}, material='brick', fixed=true}"
+                  "for i=0,119 do box{name='m'..i, size={.4,.3,.1}, at={0,0,i*.11}, material='brick'} end gravity{.02*g,.01*g,-g}"),
+      brick_scene(mortar +
+                  "joint{between={'soft','wall'}, law=mortar{kn=1e6, ks=4e5, thickness=10*mm, ft=1*MPa, c=1*MPa, mu=0.6}, "
+                  "thickness=10*mm, tolerance=0.1*mm}" +
+                  wall + "box{name='loose', group='soft', size={.2,.12,.1}, at={.03,0,14*.1+.01}, material='brick'}")};
   for (int i = 0; i < 4; ++i) {
     CAPTURE(i);
     const Settled direct = settled(scenes[i], Linear::direct), iterated = settled(scenes[i], Linear::iterative);
@@ -193,7 +193,7 @@ TEST_CASE("joints that open and slide come to the same rest by iterations and by
 }
 
 TEST_CASE("without equilibrium iterations say what factors say", "[analysis]") {
-  const Scene falls = scene_of(
+  const Scene falls = brick_scene(
       "joint{law=dry{kn=1e9, mu=0.6}} box{name='foot', size={.3,.1,.1}, at={0,0,-.1}, material='brick', fixed=true}"
       "box{name='over', size={.7,.1,.1}, at={0,0,0}, material='brick'}");
   const Settled direct = settled(falls, Linear::direct), iterated = settled(falls, Linear::iterative);
@@ -208,7 +208,7 @@ namespace {
 
 // Stacks of five plates, each on its own slope at a share of the friction limit, inclined towards `way` (deg).
 Scene slopes(const std::string& shares, double way) {
-  return scene_of(fmt::format(R"(
+  return brick_scene(fmt::format(R"(
     local way = {} * math.pi / 180
     for i, share in ipairs{{{}}} do
       local slope, id = math.atan(share * .6), 's' .. i
@@ -218,7 +218,7 @@ Scene slopes(const std::string& shares, double way) {
       end }}
       joint{{ between={{id,id}}, law=dry{{ kn=1e10, mu=.6 }} }}
     end)",
-                              way, shares));
+                                 way, shares));
 }
 
 }  // namespace
@@ -256,11 +256,11 @@ TEST_CASE("of many stacks only the one past its friction limit is not at rest, a
 }
 
 TEST_CASE("what no ramp brings to rest is told, what it does is not", "[analysis]") {
-  const Prepared falls = started(scene_of("joint{law=dry{kn=1e9, mu=0.6}}"
-                                          "box{name='foot', size={.3,.1,.1}, at={0,0,-.1}, material='brick', fixed=true}"
-                                          "box{name='over', size={.7,.1,.1}, at={0,0,0}, material='brick'}"
-                                          "box{name='other', size={.3,.1,.1}, at={0,3,-.1}, material='brick', fixed=true}"
-                                          "box{name='fine', size={.3,.1,.1}, at={0,3,0}, material='brick'}"),
+  const Prepared falls = started(brick_scene("joint{law=dry{kn=1e9, mu=0.6}}"
+                                             "box{name='foot', size={.3,.1,.1}, at={0,0,-.1}, material='brick', fixed=true}"
+                                             "box{name='over', size={.7,.1,.1}, at={0,0,0}, material='brick'}"
+                                             "box{name='other', size={.3,.1,.1}, at={0,3,-.1}, material='brick', fixed=true}"
+                                             "box{name='fine', size={.3,.1,.1}, at={0,3,0}, material='brick'}"),
                                  "ramp");
   REQUIRE(falls.fallers.size() == 1);
   CHECK(falls.model.block_name[std::size_t(falls.fallers[0])] == "over");

@@ -2,20 +2,13 @@
 #pragma once
 #include <atomic>
 #include <filesystem>
-#include <fstream>
-#include <sstream>
 #include <string>
 
 #include "engine/analysis/quasi_static/push_run.h"
+#include "tests/support/text_of.h"
 #include "tests/unit/lua/load.h"
 
 namespace erbs::test {
-
-inline std::string slurp(const std::string& path) {
-  std::stringstream text;
-  text << std::ifstream(path, std::ios::binary).rdbuf();
-  return text.str();
-}
 
 inline const std::string stone = R"(
 material{ name = "stone", density = 2000, kn = 1e10, ks = 4e9 }
@@ -42,7 +35,7 @@ inline PushOutcome push(const std::string& text, const std::string& dir, int thr
   };
   if (!copy_to.empty()) options.checkpoint_every = 0;
   const analysis::RunOutcome outcome = analysis::run_push(std::move(scene), text, options);
-  return {outcome.metrics, slurp(dir + "/curve.csv"), outcome.warnings};
+  return {outcome.metrics, text_of(dir + "/curve.csv"), outcome.warnings};
 }
 
 }  // namespace erbs::test

@@ -7,8 +7,8 @@
 #include <fstream>
 #include <map>
 #include <set>
-#include <sstream>
 
+#include "engine/base/count.h"
 #include "engine/base/units.h"
 #include "engine/record/format/csv.h"
 #include "tests/unit/analysis/push.h"
@@ -18,7 +18,7 @@ using namespace erbs;
 using namespace erbs::analysis;
 using namespace erbs::lua;
 
-using test::push, test::PushOutcome, test::slurp, test::stone;
+using test::push, test::PushOutcome, test::stone, test::text_of;
 
 namespace {
 
@@ -27,8 +27,6 @@ const std::string wall_text = stone + R"(
 wall{ brick = { length = .4, width = .2, height = .2 }, length = 1.2, courses = 4, joint = 0, at = {-.6, -.1, 0}, material = "stone", quiet = true }
 joint{ law = dry{ kn = 1e10, ks = 4e9, mu = .6 } }
 )";
-
-std::size_t z(int i) { return std::size_t(i); }
 
 }  // namespace
 
@@ -83,7 +81,7 @@ TEST_CASE("an interrupted push that is resumed gives the same curve, to the bit"
     CHECK(got.metrics.state_hash == expected.metrics.state_hash);
     CHECK(got.curve == expected.curve);
     CHECK(got.metrics.capacity->peak.multiplier == expected.metrics.capacity->peak.multiplier);
-    for (const char* file : {"/histories.csv", "/events.csv"}) CHECK(slurp(parts.path + file) == slurp(whole.path + file));
+    for (const char* file : {"/histories.csv", "/events.csv"}) CHECK(text_of(parts.path + file) == text_of(whole.path + file));
   }
 }
 
@@ -223,7 +221,7 @@ TEST_CASE("a push draws no fall where none is wanted, and names the mechanism al
         push(wall_text + "analysis{ kind = 'pushover', direction = 'y', step = .05, bracket = .05, fall = " + fall + " }", out.path);
     CHECK(run.metrics.status == "completed");
     CHECK(run.metrics.capacity->mechanism.find("overturning") != std::string::npos);
-    const std::string energy = slurp(out.path + "/energy.csv");
+    const std::string energy = text_of(out.path + "/energy.csv");
     return std::count(energy.begin(), energy.end(), '\n');
   };
   const auto none = rows("0"), brief = rows(".2"), whole = rows("4");

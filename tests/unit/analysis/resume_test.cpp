@@ -1,9 +1,8 @@
 #include <catch2/catch.hpp>
-#include <fstream>
-#include <sstream>
 
 #include "engine/analysis/dynamic.h"
 #include "lua/language/script.h"
+#include "tests/support/text_of.h"
 #include "tests/unit/record/two_bricks.h"
 
 using namespace erbs;
@@ -43,12 +42,6 @@ ground_motion{ wave = sine{ amplitude = 0.8*g, frequency = 7 }, direction = "x" 
 analysis{ duration = 0.8 }
 )";
 
-std::string slurp(const std::string& path) {
-  std::stringstream text;
-  text << std::ifstream(path, std::ios::binary).rdbuf();
-  return text.str();
-}
-
 Metrics run(const char* text, const std::string& dir, Existing existing, std::optional<double> until) {
   Script::Options quiet;
   quiet.quiet = true;
@@ -83,7 +76,8 @@ void stop_and_go(const char* text, const std::vector<double>& times) {
   CHECK(got.state_hash == expected.state_hash);
   CHECK(got.energy == expected.energy);
   CHECK(got.residual_relative == expected.residual_relative);
-  for (const char* name : {"/histories.csv", "/energy.csv", "/events.csv"}) CHECK(slurp(parts.path + name) == slurp(whole.path + name));
+  for (const char* name : {"/histories.csv", "/energy.csv", "/events.csv"})
+    CHECK(test::text_of(parts.path + name) == test::text_of(whole.path + name));
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "engine/base/wide_pages.h"
+#include "engine/base/system/wide_pages.h"
 
 #include <catch2/catch.hpp>
 #include <cstdint>

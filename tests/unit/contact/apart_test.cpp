@@ -12,7 +12,7 @@ using namespace erbs::trial;
 
 namespace {
 
-Polyhedron wedge() {  // lies on its side, 6 corners and 5 faces
+Polyhedron prism() {  // lies on its side, 6 corners and 5 faces
   Polyhedron p;
   p.vertices = {{-.1, -.06, -.05}, {.1, -.06, -.05}, {0, -.06, .07}, {-.1, .06, -.05}, {.1, .06, -.05}, {0, .06, .07}};
   p.faces = {{0, 1, 2}, {5, 4, 3}, {0, 3, 4, 1}, {1, 4, 5, 2}, {2, 5, 3, 0}};
@@ -26,7 +26,7 @@ TEST_CASE("a pair judged in short is as far apart, and lands as hard, as one jud
   const auto draw = [&](double most) { return std::uniform_real_distribution(-most, most)(random); };
   int faces = 0, other_faces = 0, edges = 0, impact_bound = 0;
   for (int trial = 0; trial < 4000; ++trial) {
-    Bodies two({{{trial % 2 ? brick() : wedge()}}, {{trial % 3 ? brick(0.2, 0.2, 0.2) : wedge()}}}, {1e9, 4e8, 0.6, 0.2}, 2e-5);
+    Bodies two({{{trial % 2 ? brick() : prism()}}, {{trial % 3 ? brick(0.2, 0.2, 0.2) : prism()}}}, {1e9, 4e8, 0.6, 0.2}, 2e-5);
     ContactBlock &a = two.block[0], &b = two.block[1];
     ContactPair pair = new_pair(0, 0, 1, 0, two.law, impact_factor(two.law.restitution), two.shapes);
     for (ContactBlock* block : {&a, &b}) {
@@ -64,7 +64,7 @@ TEST_CASE("bodies that turn together come no nearer: only their relative motion 
   const auto draw = [&](double most) { return std::uniform_real_distribution(-most, most)(random); };
   int foretold = 0;
   for (int trial = 0; trial < 1000; ++trial) {
-    Bodies two({{{trial % 2 ? brick() : wedge()}}, {{brick(0.2, 0.2, 0.2)}}}, {1e9, 4e8, 0.6, 0.2}, 2e-5);
+    Bodies two({{{trial % 2 ? brick() : prism()}}, {{brick(0.2, 0.2, 0.2)}}}, {1e9, 4e8, 0.6, 0.2}, 2e-5);
     two.settings.event_budget = 1e-4;
     ContactBlock &a = two.block[0], &b = two.block[1];
     for (ContactBlock* block : {&a, &b}) {

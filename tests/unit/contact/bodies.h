@@ -2,6 +2,7 @@
 #pragma once
 #include <algorithm>
 #include <cmath>
+#include <random>
 #include <vector>
 
 #include "engine/contact/broad/search.h"
@@ -17,6 +18,12 @@ struct Body {
 
 inline Polyhedron brick(double l = 0.30, double b = 0.125, double h = 0.10) {
   return box_polyhedron({-l / 2, -b / 2, -h / 2}, {l / 2, b / 2, h / 2});
+}
+
+// Components of the standard normal distribution.
+inline Vec3 random_vector(std::mt19937& random) {
+  std::normal_distribution<double> normal;
+  return {normal(random), normal(random), normal(random)};
 }
 
 struct Bodies {

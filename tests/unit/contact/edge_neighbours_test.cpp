@@ -16,11 +16,11 @@ namespace {
 
 constexpr double next_to_nothing = 1e-4;  // of the weight
 
-struct Two {
+struct Neighbours {
   Bodies bodies;
   ContactPair pair;
 
-  Two(const Polyhedron& a, const Polyhedron& b)
+  Neighbours(const Polyhedron& a, const Polyhedron& b)
       : bodies({{{a}, 1800}, {{b}, 1800}}, {5e10, 2e10, 0.6, 0.2}, 1e-5), pair(new_pair(0, 0, 1, 0, bodies.law, 0, bodies.shapes)) {}
   PairFrame frame() const { return pair_frame(pair, bodies.shapes, bodies.block[0], bodies.block[1]); }
   EdgeAtRest edge() const { return edge_at_rest(pair, frame(), next_to_nothing); }
@@ -46,16 +46,16 @@ const char* const stack_bond = R"(
 
 TEST_CASE("edges and corners that meet at zero gap are known, faces and gaps are not", "[contact][edges]") {
   const Polyhedron one = brick_at(0, 0, 0);
-  CHECK(Two(one, brick_at(0.3, 0, 0.1)).edge().touches);      // along an edge
-  CHECK(Two(one, brick_at(0.3, 0.125, 0.1)).edge().touches);  // at a corner
-  CHECK(!Two(one, brick_at(0, 0, 0.1)).edge().touches);
-  CHECK(!Two(one, brick_at(0.3, 0, 0.05)).edge().touches);
-  CHECK(!Two(one, brick_at(0.301, 0, 0.1)).edge().touches);
+  CHECK(Neighbours(one, brick_at(0.3, 0, 0.1)).edge().touches);      // along an edge
+  CHECK(Neighbours(one, brick_at(0.3, 0.125, 0.1)).edge().touches);  // at a corner
+  CHECK(!Neighbours(one, brick_at(0, 0, 0.1)).edge().touches);
+  CHECK(!Neighbours(one, brick_at(0.3, 0, 0.05)).edge().touches);
+  CHECK(!Neighbours(one, brick_at(0.301, 0, 0.1)).edge().touches);
 }
 
 TEST_CASE("what is not looked at bears next to nothing", "[contact][edges]") {
   const double side = GENERATE(0.0, 0.06, 0.125);
-  Two two(brick_at(0, 0, 0), brick_at(0.3, side, 0.1));
+  Neighbours two(brick_at(0, 0, 0), brick_at(0.3, side, 0.1));
   const EdgeAtRest edge = two.edge();
   REQUIRE(edge.touches);
   const double most = next_to_nothing * standard_g * two.bodies.mass[0];
@@ -82,7 +82,7 @@ TEST_CASE("what is not looked at bears next to nothing", "[contact][edges]") {
 }
 
 TEST_CASE("the way that a pair may wait is no longer than its blocks take to press", "[contact][edges]") {
-  Two two(brick_at(0, 0, 0), brick_at(0.3, 0.03, 0.1));
+  Neighbours two(brick_at(0, 0, 0), brick_at(0.3, 0.03, 0.1));
   const EdgeAtRest edge = two.edge();
   const double reach = two.bodies.shapes.part(0).reach;
   std::mt19937 random{5};

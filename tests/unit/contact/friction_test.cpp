@@ -11,20 +11,15 @@ using namespace erbs::trial;
 
 namespace {
 
-const double stiffness = 1e10;
-double small_step(double part = 0.2) { return part * step_unit(stiffness, 1800 * 0.00375, 0.0375); }
-
-Vec3 random_vector(std::mt19937& random) {
-  std::normal_distribution<double> normal;
-  return {normal(random), normal(random), normal(random)};
-}
+const double contact_stiffness = 1e10;
+double small_step(double part = 0.2) { return part * step_unit(contact_stiffness, 1800 * 0.00375, 0.0375); }
 
 // A brick on a wide floor, with gravity inclined by `slope` about y. A rotation of 1e-8 breaks the symmetry.
 Bodies on_slope(double slope, double mu, double dt, double direction = 0, double h = 0.1) {
   Body floor{{box_polyhedron({-5, -5, -1}, {5, 5, 0})}, 0};
-  const double sink = 1800 * h * 9.81 * std::cos(slope) / stiffness;
+  const double sink = 1800 * h * 9.81 * std::cos(slope) / contact_stiffness;
   const Polyhedron lying = transformed(brick(0.3, 0.125, h), rotation({1e-8, 2e-8, direction}), {0, 0, h / 2 - sink});
-  Bodies two({floor, {{lying}}}, {stiffness, 0.4 * stiffness, mu, 0.3}, dt);
+  Bodies two({floor, {{lying}}}, {contact_stiffness, 0.4 * contact_stiffness, mu, 0.3}, dt);
   two.gravity = 9.81 * Vec3(std::sin(slope), 0, -std::cos(slope));
   two.want_energy = false;
   return two;
@@ -121,7 +116,7 @@ TEST_CASE("slip of a patch takes energy in every step, wherever its pressure lie
     patch.gyration = std::sqrt((a * a + b * b) / 12);
     patch.pressure_centre = {off, 0.7 * off, 0};
     ContactPair pair;
-    pair.law = {stiffness, 0.4 * stiffness, 0.6, 0.3};
+    pair.law = {contact_stiffness, 0.4 * contact_stiffness, 0.6, 0.3};
     pair.n = patch.normal, pair.area = patch.area, pair.gyration = patch.gyration;
     const double normal = 100, reach = pair.law.mu * normal / (pair.law.ks * patch.area);
     ContactBlock below, above;
@@ -141,7 +136,7 @@ TEST_CASE("slip of a patch takes energy in every step, wherever its pressure lie
       OnePair w{};
       set_lane(w, 0, pair, below, above, 1);
       scalar::gather_pairs<double>(w);
-      w.total[0] = w.normal[2][0] = 1, w.area[0] = patch.area, w.gyration[0] = patch.gyration, w.size[0] = normal / stiffness;
+      w.total[0] = w.normal[2][0] = 1, w.area[0] = patch.area, w.gyration[0] = patch.gyration, w.size[0] = normal / contact_stiffness;
       for (int i = 0; i < 3; ++i) w.second[i][0] = patch.second(i, i), w.pressure_centre[i][0] = patch.pressure_centre[i];
       w.linear[0][0] = 1e3 * speed.x(), w.linear[1][0] = 1e3 * speed.y(), w.angular[2][0] = 1e3 * speed.z() / patch.gyration;
       scalar::springs<double>(w, settings);
@@ -176,7 +171,7 @@ TEST_CASE("oblique collisions with friction and damping close the ledger and kee
     b.v = -3 * way + random_vector(random);
     a.w = 3 * random_vector(random);
     b.w = 3 * random_vector(random);
-    Bodies two({a, b}, {stiffness, 0.4 * stiffness, 0.6, 0.5}, small_step());
+    Bodies two({a, b}, {contact_stiffness, 0.4 * contact_stiffness, 0.6, 0.5}, small_step());
     two.step(true);
     const double before = two.kinetic;
     const Vec3 momentum = two.momentum(), angular = two.angular_momentum();
@@ -220,7 +215,7 @@ TEST_CASE("rocking with friction closes the ledger", "[contact]") {
 TEST_CASE("a loaded contact turned as a whole keeps its force and does no work", "[contact][hard]") {
   Body lower{{box_polyhedron({-0.5, -0.5, -0.2}, {0.5, 0.5, 0})}};
   Body upper{{translated(brick(), {0.05, 0.02, 0.05 - 1e-5})}};
-  Bodies two({lower, upper}, {stiffness, 0.4 * stiffness, 0.6, 1}, 1e-4);
+  Bodies two({lower, upper}, {contact_stiffness, 0.4 * contact_stiffness, 0.6, 1}, 1e-4);
   two.settings.settling = two.settings.settling_tangential = 0;
   two.t = 1;
   two.forces();
@@ -246,7 +241,7 @@ TEST_CASE("a loaded contact turned as a whole keeps its force and does no work",
 
 // Hard case 14. A face of .0375 m2 with a pressure of 300 N and a shear of 54 N stores N^2 / (2 kn A) + T^2 / (2 ks A).
 TEST_CASE("a contact takes over from a joint without a jump of force or energy", "[contact][hard]") {
-  const double area = 0.0375, kn = GENERATE(0.1, 1.0, 10.0) * stiffness, sunk = GENERATE(1e-6, 2e-7, 4e-8);
+  const double area = 0.0375, kn = GENERATE(0.1, 1.0, 10.0) * contact_stiffness, sunk = GENERATE(1e-6, 2e-7, 4e-8);
   CAPTURE(kn, sunk);
   Body lower{{box_polyhedron({-0.5, -0.5, -0.2}, {0.5, 0.5, 0})}, 0};
   Body upper{{translated(brick(), {0.05, 0.02, 0.05 - sunk})}};

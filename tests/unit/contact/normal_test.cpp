@@ -9,11 +9,6 @@ using namespace erbs::trial;
 
 namespace {
 
-Vec3 random_vector(std::mt19937& random) {
-  std::normal_distribution<double> normal;
-  return {normal(random), normal(random), normal(random)};
-}
-
 // Int phi dV over both bodies. Bisectors and planes cut the overlap into cells by general half-space clipping of polygons; tetrahedra
 // integrate them. The code is independent of the engine's surface form.
 double volume_integral(const Polyhedron& a, const Polyhedron& b) {
@@ -54,11 +49,6 @@ double volume_integral(const Polyhedron& a, const Polyhedron& b) {
   return sum;
 }
 
-struct Two {
-  Polyhedron a, b;
-  double shift = 0;
-};
-
 // A random pair that overlaps by up to `depth`.
 std::pair<Polyhedron, Polyhedron> overlapping(const Polyhedron& p, const Polyhedron& q, std::mt19937& random, double depth) {
   const Polyhedron a = transformed(p, rotation(random_vector(random)), Vec3::Zero());
@@ -82,7 +72,7 @@ Polyhedron frustum() {
   }
   return hull(x);
 }
-Polyhedron wedge() { return hull({{0, 0, 0}, {0.3, 0, 0}, {0, 0.2, 0}, {0, 0, 0.25}, {0.3, 0, 0.25}}); }
+Polyhedron skew_pyramid() { return hull({{0, 0, 0}, {0.3, 0, 0}, {0, 0.2, 0}, {0, 0, 0.25}, {0.3, 0, 0.25}}); }
 
 struct Probe {
   Vec3 force, moment;
@@ -105,7 +95,7 @@ TEST_CASE("the force is the derivative of the volume integral, for general conve
   std::mt19937 random(7);
   const double kn = 1e10, h = 1e-6;
   for (int round = 0; round < 24; ++round) {
-    const Polyhedron p = round % 3 == 0 ? frustum() : brick(), q = round % 3 == 1 ? wedge() : brick();
+    const Polyhedron p = round % 3 == 0 ? frustum() : brick(), q = round % 3 == 1 ? skew_pyramid() : brick();
     const auto [a, b] = overlapping(p, q, random, 0.001 + 0.0015 * (round % 5));
     const bool b_first = mass_properties(b).volume > mass_properties(a).volume * (1 + 1e-9);
     const Vec3 centre = mass_properties(b).centroid;

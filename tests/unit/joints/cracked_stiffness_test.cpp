@@ -43,13 +43,13 @@ double against(const Mat6& k, const Mat6& bound) {
   return Eigen::GeneralizedSelfAdjointEigenSolver<Mat6>(Mat6(0.5 * (k + k.transpose())), bound).eigenvalues()[5];
 }
 
-const char* law = "mortar{E=1e9, thickness=10*mm, ft=50*kPa, c=5*MPa, mu=0.6, Gf1=1}";  // too much cohesion to slide here
+const char* cohesive_mortar = "mortar{E=1e9, thickness=10*mm, ft=50*kPa, c=5*MPa, mu=0.6, Gf1=1}";  // too much cohesion to slide here
 
 Scene two_blocks(const std::string& rule, const std::string& shape) {
   Script script(Script::Options{.quiet = true});
   return script.load_text(R"(
     material{name="brick", density=1800}
-    joint{law=)" + std::string(law) +
+    joint{law=)" + std::string(cohesive_mortar) +
                               R"(, thickness=10*mm, tolerance=0.1*mm, )" + rule + R"(}
     box{name="foot", size={.5,.5,.1}, at={-.1,-.1,-.11}, material="brick", fixed=true}
     analysis{duration=1}

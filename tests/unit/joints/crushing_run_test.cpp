@@ -11,7 +11,7 @@ using namespace erbs::lua;
 namespace {
 
 // Nine pillars under loads that stand more and more eccentric; the first is crushed through within the run, others lose their toe.
-const char* scene = R"(
+const char* eccentric_pillars = R"(
 material{ name = "stone", density = 2400, friction = .6 }
 box{ name = "floor", group = "floor", size = { 14, 3, 1 }, at = { -1, -1, -1 }, fixed = true }
 local load = table_wave{ times = { 0, .1, .25 }, values = { 0, -.9e5, -2e5 }, hold = true }
@@ -37,7 +37,7 @@ Json metrics_of(const Bench& bench) { return read_json(bench.out() + "/metrics.j
 TEST_CASE("crushing that softens gives the same bits for any threads, after a resume and with points one by one",
           "[crushing][softening][program]") {
   const std::string bears = GENERATE("pressure = 'face'", "pressure = 'points', rule = 'trapezoid', points = 4");
-  std::string pillars = scene;
+  std::string pillars = eccentric_pillars;
   pillars.replace(pillars.find("BEARS"), 5, bears);
   Bench bench;
   REQUIRE(bench.run(pillars, {"--threads", "1"}) == 0);

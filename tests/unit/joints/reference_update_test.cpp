@@ -17,7 +17,7 @@ using namespace erbs::lua;
 
 namespace {
 
-const std::string shake = "ground_motion{wave=sine{amplitude=0.5*g, frequency=8}, direction={1,0.7,0}} analysis{duration=1, kernel=\"";
+const std::string shake_by = "ground_motion{wave=sine{amplitude=0.5*g, frequency=8}, direction={1,0.7,0}} analysis{duration=1, kernel=\"";
 
 // One rigid rotation of 1e-4 rad, the largest before a reference update, plus strains.
 void turn_rigidly(const Model& m, State& s, double strain) {
@@ -32,7 +32,7 @@ void turn_rigidly(const Model& m, State& s, double strain) {
 }  // namespace
 
 TEST_CASE("carried geometry answers as exact geometry within the tolerance of a refresh", "[solve]") {
-  const Scene scene = test::small_wall(shake + "fast\"}");
+  const Scene scene = test::small_wall(shake_by + "fast\"}");
   Prepared run = prepare(scene, false);
   State& s = run.state;
   turn_rigidly(run.model, s, 1e-8);
@@ -47,7 +47,7 @@ TEST_CASE("carried geometry answers as exact geometry within the tolerance of a 
 }
 
 TEST_CASE("a rigid turn between refreshes strains no joint", "[solve]") {
-  Prepared run = prepare(test::small_wall(shake + "fast\"}"), false);
+  Prepared run = prepare(test::small_wall(shake_by + "fast\"}"), false);
   const Model& m = run.model;
   State& s = run.state;
   turn_rigidly(m, s, 0);
@@ -63,7 +63,7 @@ TEST_CASE("a rigid turn between refreshes strains no joint", "[solve]") {
 }
 
 TEST_CASE("cracked joints see their blocks exactly, however far these have turned", "[solve][cracked]") {
-  Prepared run = prepare(test::small_wall(shake + "fast\"}", "dry{kn=1e10, mu=0.5}"), false);
+  Prepared run = prepare(test::small_wall(shake_by + "fast\"}", "dry{kn=1e10, mu=0.5}"), false);
   const Model& m = run.model;
   State& s = run.state;
   const double apart = GENERATE(1e-9, 0.1, 0.13, 0.7);  // rad; beyond .126 a series no longer converges
@@ -88,7 +88,7 @@ TEST_CASE("cracked joints see their blocks exactly, however far these have turne
 }
 
 TEST_CASE("a refresh by whole batches gives what all joints anew would", "[solve]") {
-  Prepared run = prepare(test::small_wall(shake + "fast\"}"), false);
+  Prepared run = prepare(test::small_wall(shake_by + "fast\"}"), false);
   const Model& m = run.model;
   State& s = run.state;
   IntactJoints intact(m, s);
@@ -114,7 +114,7 @@ TEST_CASE("a refresh by whole batches gives what all joints anew would", "[solve
 }
 
 TEST_CASE("sound joints that have been looked at once are passed by only where they hold", "[solve]") {
-  Prepared run = prepare(test::small_wall(shake + "fast\"} gravity(g)", "dry{kn=1e10, mu=0.5}"), false);
+  Prepared run = prepare(test::small_wall(shake_by + "fast\"} gravity(g)", "dry{kn=1e10, mu=0.5}"), false);
   const Model& m = run.model;  // overhanging corners would fall, so it runs only until its joints are under load
   {
     Solver solver(m, run.state, run.range, 1);

@@ -11,7 +11,7 @@ using namespace erbs::analysis;
 
 namespace {
 
-const char* const shake = "ground_motion{wave=sine{amplitude=0.5*g, frequency=8}, direction={1,0.7,0}} analysis{duration=1}";
+const char* const oblique_shake = "ground_motion{wave=sine{amplitude=0.5*g, frequency=8}, direction={1,0.7,0}} analysis{duration=1}";
 
 // All joints of a small wall, cracked. Its blocks are moved by hand.
 struct CrackedWall {
@@ -25,7 +25,7 @@ struct CrackedWall {
     return s;
   }
   explicit CrackedWall(const std::string& law)
-      : run(prepare(test::small_wall(shake, law), false)), state(all_cracked(run.state)), cracked(run.model, state) {}
+      : run(prepare(test::small_wall(oblique_shake, law), false)), state(all_cracked(run.state)), cracked(run.model, state) {}
 
   void step(int n) {
     state.time.step = n;

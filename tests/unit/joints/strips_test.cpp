@@ -11,7 +11,7 @@ using namespace erbs::analysis;
 
 namespace {
 
-const char* const shake = "ground_motion{wave=sine{amplitude=0.5*g, frequency=8}} gravity(g) analysis{duration=1}";
+const char* const shake_with_weight = "ground_motion{wave=sine{amplitude=0.5*g, frequency=8}} gravity(g) analysis{duration=1}";
 
 // Poses of all blocks along a random path: they drift past their limits and tremble there, by a length that changes. Every third block
 // turns about one horizontal axis, and every third about the other; a millionth about both, lest two points are deepest at once.
@@ -49,7 +49,7 @@ TEST_CASE("joints integrated by strips answer as one by one on random paths", "[
   const std::string energies = std::string(softening).find("Gf1") == std::string::npos ? "Gf1=0.3, Gf2=0.5, " : "";
   const std::string law =
       "mortar{E=1e9, thickness=10*mm, ft=50*kPa, c=80*kPa, mu=0.6, mu_residual=0.5, " + energies + softening + "}, " + rule;
-  const Prepared run = prepare(test::small_wall(shake, law), false);
+  const Prepared run = prepare(test::small_wall(shake_with_weight, law), false);
   const Model& m = run.model;
   State packs = run.state;
   std::fill(packs.joints.stage.begin(), packs.joints.stage.end(), JointStage::cracked);

@@ -32,8 +32,8 @@ double area_of(const std::vector<double>& corners) {
 }
 
 // Independent points of equal area. Each knows its crushed depth w; it yields where kn (u - w) would exceed fc (1 - w / ultimate).
-struct Places : test::Grid {
-  explicit Places(const std::vector<double>& corners, int n = 500) : Grid(corners, n) {}
+struct SofteningPlaces : test::Grid {
+  explicit SofteningPlaces(const std::vector<double>& corners, int n = 500) : Grid(corners, n) {}
   void go(const CompressionFace& f, const Gap& g) {
     for (auto& [s, t, w] : place) {
       const double u = -at(g, s, t), left = std::max(0.0, 1 - w / f.ultimate);
@@ -61,7 +61,7 @@ struct Places : test::Grid {
 TEST_CASE("a face that softens presses as its places do one by one", "[laws][crushing][softening]") {
   const auto& corners = faces[std::size_t(GENERATE(0, 1, 2))];
   const CompressionFace b = face(corners, GENERATE(1.5e-4, 4e-4, 2e-3));
-  Places places(corners);
+  SofteningPlaces places(corners);
   CrushedFace crushed;
   std::mt19937 random(7);
   std::uniform_real_distribution<double> any(-1, 1);

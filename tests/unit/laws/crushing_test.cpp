@@ -21,8 +21,8 @@ using test::Gap;
 CompressionFace face(const std::vector<double>& corners) { return {1e10, 1e-4, int(corners.size()) / 2, corners.data()}; }
 
 // Points of equal area (m2) over a face, each with its own permanent set.
-struct Places : test::Grid {
-  explicit Places(const std::vector<double>& corners, int n = 700) : Grid(corners, n) {}
+struct YieldingPlaces : test::Grid {
+  explicit YieldingPlaces(const std::vector<double>& corners, int n = 700) : Grid(corners, n) {}
   void go(const Gap& g, double limit) {
     for (auto& [s, t, z] : place) z = std::min(z, at(g, s, t) + limit);
   }
@@ -48,7 +48,7 @@ void check(const Pressed& a, const Pressed& b, double scale, double share) {
 TEST_CASE("a face that yields presses as its places do one by one", "[laws][crushing]") {
   const auto& corners = faces[std::size_t(GENERATE(0, 1, 2))];
   const CompressionFace b = face(corners);
-  Places places(corners);
+  YieldingPlaces places(corners);
   CrushedFace crushed;
   std::mt19937 random(3);
   std::uniform_real_distribution<double> any(-1, 1);
@@ -105,7 +105,7 @@ TEST_CASE("what crushing takes closes the balance of every step", "[laws][crushi
 
 TEST_CASE("planes that a face has no room for are those that matter least", "[laws][crushing]") {
   const CompressionFace b = face(faces[0]);
-  Places places(faces[0], 300);
+  YieldingPlaces places(faces[0], 300);
   CrushedFace crushed;
   Gap last{1, 0, 0};
   for (int i = 0; i <= 400; ++i) {  // once around the face

@@ -8,6 +8,7 @@
 #include "engine/loads/record/correction.h"
 #include "engine/loads/record/record_report.h"
 #include "engine/loads/record/spline.h"
+#include "tests/support/places.h"
 #include "tests/unit/loads/record_input.h"
 
 using namespace erbs;
@@ -35,7 +36,7 @@ std::pair<double, double> tone_of(const std::vector<double>& t, const std::vecto
 
 Record el_centro(const std::function<void(Record&)>& set) {
   Record record;
-  record.file = ERBS_SOURCE_DIR "/scenes/records/elcentro_1940_ns.csv";
+  record.file = test::in_source("/scenes/records/elcentro_1940_ns.csv");
   set(record);
   return read_record(record, {"scene.lua", 7});
 }

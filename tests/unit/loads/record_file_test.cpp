@@ -6,6 +6,7 @@
 #include "engine/base/units.h"
 #include "engine/loads/record/record.h"
 #include "tests/support/folder.h"
+#include "tests/support/places.h"
 
 using namespace erbs;
 namespace fs = std::filesystem;
@@ -188,7 +189,7 @@ TEST_CASE("the hash tells files apart", "[loads][record]") {
 }
 
 TEST_CASE("records of PEER are read as their makers wrote them", "[loads][record]") {
-  const fs::path folder = ERBS_SOURCE_DIR "/../shared/data/records/peer";
+  const fs::path folder = test::in_source("/../shared/data/records/peer");
   if (!fs::is_directory(folder)) {
     WARN("skipped: no PEER records beside the project");
     return;

@@ -6,6 +6,7 @@
 #include "engine/base/units.h"
 #include "engine/loads/loads.h"
 #include "engine/loads/record/record_report.h"
+#include "tests/support/places.h"
 
 using namespace erbs;
 
@@ -13,7 +14,7 @@ namespace {
 
 Record el_centro(double time_factor = 1, double peak = 0) {
   Record record;
-  record.file = ERBS_SOURCE_DIR "/scenes/records/elcentro_1940_ns.csv";
+  record.file = test::in_source("/scenes/records/elcentro_1940_ns.csv");
   record.time_factor = time_factor;
   record.peak = peak;
   return read_record(record);
@@ -73,7 +74,7 @@ TEST_CASE("a record starts late, and its ground goes on at its end velocity", "[
 
 TEST_CASE("peak and scale are not both obeyed", "[loads][record]") {
   Record record;
-  record.file = ERBS_SOURCE_DIR "/scenes/records/elcentro_1940_ns.csv";
+  record.file = test::in_source("/scenes/records/elcentro_1940_ns.csv");
   record.peak = 1;
   record.scale = 2;
   CHECK_THROWS_WITH(read_record(record, {"scene.lua", 7}), Catch::Contains("scene.lua:7") && Catch::Contains("one of them"));

@@ -9,14 +9,13 @@
 
 #include "lua/program/child.h"
 #include "tests/support/folder.h"
+#include "tests/support/places.h"
+#include "tests/support/text_of.h"
 #include "tests/unit/lua/load.h"
 
 namespace erbs::lua {
 
-inline std::string text_of(const std::filesystem::path& path) {
-  std::ifstream stream(path);
-  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-}
+using test::text_of;
 
 // Three lines of a scene with four bricks; the joint law follows.
 inline std::string four_bricks() {
@@ -37,7 +36,7 @@ struct Bench {
     return (folder / "scene.lua").string();
   }
   std::vector<std::string> command(std::vector<std::string> words) const {
-    words.insert(words.begin(), ERBS_BINARY_DIR "/erbs");
+    words.insert(words.begin(), test::in_build("/erbs"));
     return words;
   }
   int erbs(const std::vector<std::string>& words) {

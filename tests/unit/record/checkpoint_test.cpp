@@ -4,12 +4,12 @@
 #include <catch2/catch.hpp>
 
 #include <fstream>
-#include <sstream>
 
 #include "engine/base/error.h"
 #include "engine/model/contact_pair.h"
 #include "engine/record/folder/run_writer.h"
 #include "engine/record/results/collapse.h"
+#include "tests/support/text_of.h"
 #include "tests/unit/record/two_bricks.h"
 
 using namespace erbs;
@@ -29,12 +29,6 @@ State moved() {
   s.energy.friction = 4;
   s.energy.largest_jump_joint = 3;
   return s;
-}
-
-std::string slurp(const std::string& path) {
-  std::stringstream text;
-  text << std::ifstream(path, std::ios::binary).rdbuf();
-  return text.str();
 }
 
 struct NestedThing {
@@ -91,9 +85,9 @@ TEST_CASE("a checkpoint brings everything back", "[record][checkpoint]") {
   NestedThing again;
   read_checkpoint(scratch.path, key, back, again);
   // A second write gives the same file: nothing that the visitor names was lost.
-  const std::string first = slurp(scratch.path + "/checkpoint.bin");
+  const std::string first = test::text_of(scratch.path + "/checkpoint.bin");
   write_checkpoint(scratch.path, key, back, again);
-  CHECK(slurp(scratch.path + "/checkpoint.bin") == first);
+  CHECK(test::text_of(scratch.path + "/checkpoint.bin") == first);
   CHECK(back.pose.u[1] == s.pose.u[1]);
   CHECK(back.pose.q[1].coeffs() == s.pose.q[1].coeffs());
   CHECK(back.joints.pack[0].rotation[2][7] == 0.25);
@@ -134,7 +128,7 @@ TEST_CASE("a checkpoint of another scene or step, cut short or damaged, is refus
   write_checkpoint(scratch.path, key, moved());
   CHECK_THROWS_WITH(read_checkpoint(scratch.path, {43, 1e-4}, back), Catch::Contains("another scene") && Catch::Contains("--force"));
   CHECK_THROWS_WITH(read_checkpoint(scratch.path, {42, 2e-4}, back), Catch::Contains("0.0001") && Catch::Contains("0.0002"));
-  const std::string whole = slurp(path);
+  const std::string whole = test::text_of(path);
   for (const std::size_t length : {std::size_t(0), std::size_t(20), whole.size() / 2, whole.size() - 1}) {
     std::ofstream(path, std::ios::binary) << whole.substr(0, length);
     CHECK_THROWS_WITH(read_checkpoint(scratch.path, key, back), Catch::Contains("checkpoint.bin") && Catch::Contains("cut short"));

@@ -3,20 +3,14 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <fstream>
-#include <sstream>
 
 #include "engine/base/error.h"
+#include "tests/support/text_of.h"
 #include "tests/unit/record/two_bricks.h"
 
 using namespace erbs;
 
 namespace {
-
-std::string slurp(const std::string& path) {
-  std::stringstream text;
-  text << std::ifstream(path).rdbuf();
-  return text.str();
-}
 
 std::string csv_in(const test::Scratch& scratch) {
   std::filesystem::create_directories(scratch.path);
@@ -66,7 +60,7 @@ TEST_CASE("a resumed table is that of one uninterrupted run", "[record][csv]") {
     CsvWriter whole(path, {"time_s", "a"});
     for (int i = 0; i < 6; ++i) whole.row({0.1 * i, double(i)});
   }
-  const std::string expected = slurp(path);
+  const std::string expected = test::text_of(path);
   {
     CsvWriter first(path, {"time_s", "a"});
     for (int i = 0; i < 5; ++i) first.row({0.1 * i, double(i)});
@@ -77,7 +71,7 @@ TEST_CASE("a resumed table is that of one uninterrupted run", "[record][csv]") {
     CHECK(second.rows() == 3);
     for (int i = 3; i < 6; ++i) second.row({0.1 * i, double(i)});
   }
-  CHECK(slurp(path) == expected);
+  CHECK(test::text_of(path) == expected);
   CHECK_THROWS_WITH(CsvWriter(path, {"time_s", "b"}, 3), Catch::Contains("columns"));
   CHECK_THROWS_WITH(CsvWriter(path, {"time_s", "a"}, 7), Catch::Contains("6 rows"));
 }

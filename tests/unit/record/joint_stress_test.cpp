@@ -15,7 +15,7 @@ using analysis::Prepared;
 
 namespace {
 
-constexpr double b = 0.3, t = 0.2, face = b * t;  // m, m, m2: side along the bending, the other side
+constexpr double bed_length = 0.3, bed_width = 0.2, face = bed_length * bed_width;  // m, m, m2: length along the bending
 
 Prepared bed(const std::string& law, const std::string& rule = "simpson") {
   Script script(Script::Options{.quiet = true});
@@ -58,6 +58,7 @@ TEST_CASE("the edge of a bed has N / A + 6 M / (t b^2) while closed, 2 N / (3 t 
   const std::string law =
       GENERATE(as<std::string>{}, dry_bed, "mortar{kn=1e10, ft=0, c=0, mu=0.6}", "mortar{kn=1e10, ft=5*MPa, c=9*MPa, mu=.6}");
   const std::string rule = GENERATE(as<std::string>{}, "simpson", "gauss");
+  const double b = bed_length, t = bed_width;
   const bool bonded = law.find("5*MPa") != std::string::npos;
   for (const double turn : {0.0, 2e-4, 5e-4, 1e-3, 3e-3}) {
     Bent joint(law, rule);

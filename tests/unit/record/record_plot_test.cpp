@@ -8,6 +8,7 @@
 #include "engine/base/error.h"
 #include "engine/record/plot/gnuplot.h"
 #include "tests/support/folder.h"
+#include "tests/support/places.h"
 
 using namespace erbs;
 namespace fs = std::filesystem;
@@ -21,7 +22,7 @@ std::string contents(const fs::path& path) {
 
 Record el_centro() {
   Record record;
-  record.file = ERBS_SOURCE_DIR "/scenes/records/elcentro_1940_ns.csv";
+  record.file = test::in_source("/scenes/records/elcentro_1940_ns.csv");
   return read_record(record);
 }
 

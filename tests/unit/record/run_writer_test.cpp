@@ -5,9 +5,9 @@
 
 #include <catch2/catch.hpp>
 #include <fstream>
-#include <sstream>
 
 #include "engine/record/folder/run_folder.h"
+#include "tests/support/text_of.h"
 #include "tests/unit/record/two_bricks.h"
 
 using namespace erbs;
@@ -23,12 +23,6 @@ struct Case {
     t.scene.recorders = {r};
   }
 };
-
-std::string slurp(const std::string& path) {
-  std::stringstream text;
-  text << std::ifstream(path, std::ios::binary).rdbuf();
-  return text.str();
-}
 
 // Writes row i; an event every third row, a frame every tenth.
 void step(RunWriter& writer, test::TwoBricks& t, int i) {
@@ -103,14 +97,15 @@ TEST_CASE("a run that is killed leaves whole rows, and goes on from its checkpoi
   CHECK(at.event_rows == 14);
   CHECK(at.frames == 4);
   for (const char* name : {"/histories.csv", "/energy.csv", "/events.csv"}) {
-    const std::string text = slurp(killed.path + name);
+    const std::string text = test::text_of(killed.path + name);
     CHECK(text.back() == '\n');
     CHECK_NOTHROW(read_csv(killed.path + name));
   }
   CHECK(read_csv(killed.path + "/histories.csv").rows() >= 40);
   std::ofstream(killed.path + "/histories.csv", std::ios::app) << "15.0,0.";  // a torn row, as left by a power failure
   write(killed.path, c, 40, 3000, &at);
-  for (const char* name : {"/histories.csv", "/energy.csv", "/events.csv"}) CHECK(slurp(killed.path + name) == slurp(whole.path + name));
+  for (const char* name : {"/histories.csv", "/energy.csv", "/events.csv"})
+    CHECK(test::text_of(killed.path + name) == test::text_of(whole.path + name));
   const MotionReader motion(killed.path);
   REQUIRE(motion.times().size() == 300);
   CHECK(motion.read(299).poses == MotionReader(whole.path).read(299).poses);

@@ -7,9 +7,11 @@
 #include "engine/contact/broad/search.h"
 #include "tests/support/small_wall.h"
 #include "tests/unit/record/two_bricks.h"
+#include "tests/unit/solve/scene_run.h"
 
 using namespace erbs;
 using namespace erbs::analysis;
+using test::block_index;
 
 namespace {
 
@@ -29,11 +31,10 @@ Prepared built(const std::string& more, double slope = 0) {
   return prepare(scene, false);
 }
 
-int block(const Model& m, const std::string& name) { return int(std::ranges::find(m.block_name, name) - m.block_name.begin()); }
-
 Hop of_joint(const Model& m, const std::string& a, const std::string& b) {
   for (const Joint& joint : m.joint)
-    if ((joint.a == block(m, a) && joint.b == block(m, b)) || (joint.a == block(m, b) && joint.b == block(m, a))) return joint.hop;
+    if ((joint.a == block_index(m, a) && joint.b == block_index(m, b)) || (joint.a == block_index(m, b) && joint.b == block_index(m, a)))
+      return joint.hop;
   FAIL("no joint " << a << " | " << b);
   return {};
 }
@@ -42,7 +43,7 @@ Hop of_joint(const Model& m, const std::string& a, const std::string& b) {
 Hop of_contact(Prepared run, const std::string& a, const std::string& b, double until = 0.02) {
   Solver solver(run.model, run.state, run.range, 1);
   solver.advance_until([&] { return run.state.time.t >= until; });
-  const int x = block(run.model, a), y = block(run.model, b);
+  const int x = block_index(run.model, a), y = block_index(run.model, b);
   const int at = find_pair(run.state.contacts.list, std::min(x, y), 0, std::max(x, y), 0);
   REQUIRE(at >= 0);
   return run.state.contacts.list.pair[std::size_t(at)].law.hop;

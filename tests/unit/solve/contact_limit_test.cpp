@@ -22,15 +22,15 @@ const std::string leap = R"(
   gravity(g)
 )";
 
-struct Ran {
+struct Stepped {
   Prepared run;
   double longest = 0, shortest = 1e9;  // s
 };
 
-Ran go(const std::string& script, double until, int threads = 1) {
+Stepped stepped(const std::string& script, double until, int threads = 1) {
   Script loaded(Script::Options{.quiet = true});
   const Scene scene = loaded.load_text(script, "leap.lua");
-  Ran r{prepare(scene, false)};
+  Stepped r{prepare(scene, false)};
   start_at_rest(scene, r.run, threads);
   Solver solver(r.run.model, r.run.state, r.run.range, threads);
   const State& s = r.run.state;
@@ -45,7 +45,7 @@ Ran go(const std::string& script, double until, int threads = 1) {
 }  // namespace
 
 TEST_CASE("once the stiff joint is gone the step grows to what debris bears", "[solve][step]") {
-  const Ran r = go(leap + "analysis{ duration = 9, start = 'rest' }", 1.5);
+  const Stepped r = stepped(leap + "analysis{ duration = 9, start = 'rest' }", 1.5);
   const State& s = r.run.state;
   // The longest step is 0.9 sqrt(2 m / (kn A)). A single brick on its face, on ground that does not give way, allows 0.7 of 2 sqrt(m / (kn
   // A)), with a reserve for rocking.
@@ -66,12 +66,12 @@ TEST_CASE("once the stiff joint is gone the step grows to what debris bears", "[
 // A plate of mass m pressed between the ground and a slab 25 times as heavy, k = kn A on either side: omega^2 = 2 k / m (1 + m / 2 M).
 // Twice the stiffness on the plate would allow .71 of that step.
 TEST_CASE("a light plate under a heavy slab holds the step by its own frequency", "[solve][step]") {
-  const Ran r = go(leap + R"(
+  const Stepped r = stepped(leap + R"(
     joint{ between = { "loose", "" }, none = true }
     box{ name = "plate", group = "loose", material = "brick", free = true, size = {.3, .3, .02}, at = {2, 0, 0} }
     box{ name = "slab", group = "loose", material = "brick", free = true, size = {.3, .3, .5}, at = {2, 0, .02} }
     analysis{ duration = 9, start = 'rest' })",
-                   1.5);
+                            1.5);
   const double m = 1800 * 0.3 * 0.3 * 0.02, k = 2e10 * 0.3 * 0.3, limit = 2 / std::sqrt(2 * k / m * (1 + 1 / 50.));
   CHECK(r.run.state.time.dt < 0.7 * limit);
   CHECK(r.run.state.time.dt > 0.6 * limit);
@@ -79,17 +79,17 @@ TEST_CASE("a light plate under a heavy slab holds the step by its own frequency"
 }
 
 TEST_CASE("a step that the scene names is not exceeded, and a share of the limit is kept", "[solve][step]") {
-  const Ran named = go(leap + "analysis{ duration = 9, start = 'rest', dt = 2e-6 }", 0.8);
+  const Stepped named = stepped(leap + "analysis{ duration = 9, start = 'rest', dt = 2e-6 }", 0.8);
   CHECK(named.longest <= 2e-6);  // the joint that breaks in the first step shortens it
   CHECK(named.longest > 1.8e-6);
-  const Ran fifth = go(leap + "analysis{ duration = 9, start = 'rest', dt_fraction = 0.2 }", 1.2);
-  const Ran whole = go(leap + "analysis{ duration = 9, start = 'rest' }", 1.2);
+  const Stepped fifth = stepped(leap + "analysis{ duration = 9, start = 'rest', dt_fraction = 0.2 }", 1.2);
+  const Stepped whole = stepped(leap + "analysis{ duration = 9, start = 'rest' }", 1.2);
   CHECK(fifth.longest == Approx(whole.longest * 0.2 / 0.9).epsilon(0.1));
 }
 
 TEST_CASE("the step grows alike with any number of threads", "[solve][step]") {
-  const Ran one = go(leap + "analysis{ duration = 9, start = 'rest' }", 0.6),
-            two = go(leap + "analysis{ duration = 9, start = 'rest' }", 0.6, 2);
+  const Stepped one = stepped(leap + "analysis{ duration = 9, start = 'rest' }", 0.6),
+                two = stepped(leap + "analysis{ duration = 9, start = 'rest' }", 0.6, 2);
   CHECK(one.run.state.time.step == two.run.state.time.step);
   CHECK(one.run.state.pose.u[2] == two.run.state.pose.u[2]);
 }

@@ -17,7 +17,7 @@ const std::string head = R"(
 material{ name = "stone", density = 2000, restitution = 0.3, friction = 0.4 }
 box{ name = "base", group = "base", size = {2, 2, 0.1}, center = {0, 0, -0.05}, fixed = true }
 )";
-const std::string block = R"(box{ name = "block", group = "block", size = {0.4, 0.4, 0.04}, center = {0, 0, 0.02} })";
+const std::string plate = R"(box{ name = "block", group = "block", size = {0.4, 0.4, 0.04}, center = {0, 0, 0.02} })";
 const std::string dry = R"( joint{ law = dry{ kn = 1e9, mu = 0.4 } })";
 
 struct Term {
@@ -27,29 +27,29 @@ struct Term {
 };
 
 const Term terms[] = {
-    {"friction", &Energy::friction, head + block + dry + "ground_motion{ wave = 8, direction = 'x' } analysis{ duration = 0.1 }"},
-    {"base_work", &Energy::base_work, head + block + dry + "ground_motion{ wave = 8, direction = 'x' } analysis{ duration = 0.1 }"},
+    {"friction", &Energy::friction, head + plate + dry + "ground_motion{ wave = 8, direction = 'x' } analysis{ duration = 0.1 }"},
+    {"base_work", &Energy::base_work, head + plate + dry + "ground_motion{ wave = 8, direction = 'x' } analysis{ duration = 0.1 }"},
     {"external_work", &Energy::external_work,
-     head + block + dry +
+     head + plate + dry +
          "force{ block = 'block', wave = pulse{ amplitude = 80, start = 0.01, duration = 0.2 } } analysis{ duration = 0.1 }"},
     {"motion's work", &Energy::external_work,
-     head + block +
+     head + plate +
          " joint{ law = mortar{ kn = 1e9, ks = 4e8, ft = 1e8, c = 1e8, mu = 0.6 } }"
          "motion{ block = 'block', wave = table_wave{ times = {0, 0.1}, values = {0, 1e-3} } } analysis{ duration = 0.1, dt = 1e-5 }"},
     {"turning's work", &Energy::external_work,
-     head + block +
+     head + plate +
          " joint{ law = mortar{ kn = 1e9, ks = 4e8, ft = 1e8, c = 1e8, mu = 0.6 } }"
          "turning{ block = 'block', axis = {1, 2, 3}, wave = table_wave{ times = {0, 0.1}, values = {0, 1e-3} } } analysis{ duration = "
          "0.1, dt = 1e-5 }"},
     {"tilt_work", &Energy::tilt_work,
-     head + block + dry + "tilt{ axis = 'y', wave = table_wave{ times = {0, 0.2}, values = {0, 0.8} } } analysis{ duration = 0.2 }"},
+     head + plate + dry + "tilt{ axis = 'y', wave = table_wave{ times = {0, 0.2}, values = {0, 0.8} } } analysis{ duration = 0.2 }"},
     {"fracture", &Energy::fracture,
-     head + block +
+     head + plate +
          " joint{ law = mortar{ kn = 1e9, ks = 4e8, ft = 1e4, c = 1e4, mu = 0.6, Gf1 = 5 } } gravity(0)"
          "motion{ block = 'block', direction = 'z', wave = table_wave{ times = {0, 0.1}, values = {0, 5e-4} } } analysis{ duration = 0.1, "
          "dt = 1e-5 }"},
     {"crushing", &Energy::crushing,
-     head + block +
+     head + plate +
          " joint{ law = mortar{ kn = 1e9, ks = 4e8, ft = 1e4, c = 1e4, mu = 0.6, fc = 1e5 } }"
          "motion{ block = 'block', direction = 'z', wave = table_wave{ times = {0, 0.1}, values = {0, -5e-4} } } analysis{ duration = 0.1, "
          "dt = 1e-5 }"},
@@ -93,7 +93,7 @@ TEST_CASE("the gate fails as soon as one term of the ledger books a tenth too li
 }
 
 TEST_CASE("without gravity the measure of the ledger is the motion of the driven blocks, also if they only turn", "[solve][ledger]") {
-  const std::string scene = head + block + "box{ name = 'top', size = {.4, .4, .2}, center = {0, 0, .14} } gravity(0)" +
+  const std::string scene = head + plate + "box{ name = 'top', size = {.4, .4, .2}, center = {0, 0, .14} } gravity(0)" +
                             " joint{ law = mortar{ kn = 1e9, ks = 4e8, ft = 1e8, c = 1e8, mu = 0.6 } } analysis{ duration = .1 }";
   const auto reference = [&](const std::string& motion) {
     Script script(Script::Options{.quiet = true});

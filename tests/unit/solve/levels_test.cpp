@@ -9,10 +9,12 @@
 #include "engine/record/format/csv.h"
 #include "tests/support/small_wall.h"
 #include "tests/unit/record/two_bricks.h"
+#include "tests/unit/solve/scene_run.h"
 
 using namespace erbs;
 using namespace erbs::analysis;
 using namespace erbs::lua;
+using test::dynamic_run;
 
 namespace {
 
@@ -41,16 +43,6 @@ std::string falling(int levels) {
          std::to_string(levels) + " }";
 }
 
-Metrics run(const std::string& text, const std::string& directory, Existing existing, std::optional<double> until = {}, int threads = 1) {
-  Script script(Script::Options{.quiet = true});
-  RunOptions options;
-  options.directory = directory;
-  options.existing = existing;
-  options.until = until;
-  options.threads = threads;
-  return run_dynamic(script.load_text(text, "scene.lua"), text, options).metrics;
-}
-
 }  // namespace
 
 TEST_CASE("a slow pair has the interval of macro steps, a fast one that of steps", "[levels]") {
@@ -67,7 +59,7 @@ TEST_CASE("the ledger and the fall are those of one level", "[levels]") {
   for (const int levels : {1, 4}) {
     const test::Scratch to("levels_fall");
     Metrics& m = of[levels > 1];
-    m = run(falling(levels), to.path, Existing::refuse);
+    m = dynamic_run(falling(levels), to.path, Existing::refuse);
     INFO("levels " << levels);
     CHECK(m.status == "completed");
     CHECK(m.collapse.collapsed);
@@ -90,7 +82,7 @@ TEST_CASE("in a small heap where no joint keeps the step short, levels change no
     analysis{ duration = .5, levels = )") +
                              (levels ? "4" : "1") + " }";
     const test::Scratch to("levels_loose");
-    hash[levels] = run(text, to.path, Existing::refuse).state_hash;
+    hash[levels] = dynamic_run(text, to.path, Existing::refuse).state_hash;
   }
   CHECK(hash[0] == hash[1]);
 }
@@ -107,10 +99,10 @@ TEST_CASE("a sleeper wakes alike in a run with levels that was stopped, and is r
     analysis{ duration = .95, start = "rest", levels = 4, output_dt = 1e-4, sleep = true })" +
                            pier("brick");
   const test::Scratch whole("sleeper_whole"), stopped("sleeper_stopped");
-  const Metrics one = run(text, whole.path, Existing::refuse);
+  const Metrics one = dynamic_run(text, whole.path, Existing::refuse);
   CHECK(one.momentum_residual < 1e-12);
-  for (const double until : {.7, .8}) run(text, stopped.path, until < .75 ? Existing::refuse : Existing::resume, until);
-  const Metrics other = run(text, stopped.path, Existing::resume);
+  for (const double until : {.7, .8}) dynamic_run(text, stopped.path, until < .75 ? Existing::refuse : Existing::resume, until);
+  const Metrics other = dynamic_run(text, stopped.path, Existing::resume);
   CHECK(other.state_hash == one.state_hash);
   CHECK(other.momentum_residual == one.momentum_residual);
   const CsvTable rows = read_csv(whole.path + "/histories.csv");
@@ -128,7 +120,7 @@ TEST_CASE("a sleeper wakes alike in a run with levels that was stopped, and is r
 TEST_CASE("the velocity of a driven block is recorded with levels as without", "[levels]") {
   for (const int levels : {1, 4}) {
     const test::Scratch to("levels_driven");
-    run(R"(
+    dynamic_run(R"(
     material{ name = "brick", density = 1800, friction = 0.6, kn = 1e9 }
     ground{ size = 40, material = "brick" }
     box{ name = "plate", size = {.3, .3, .1}, center = {2, 0, 1}, free = true }
@@ -136,8 +128,8 @@ TEST_CASE("the velocity of a driven block is recorded with levels as without", "
     motion{ block = "plate", direction = "x", wave = sine{ amplitude = .15, frequency = 3 } }
     recorder{ name = "plate", quantity = "velocity", block = "plate" }
     analysis{ duration = .4, start = "rest", output_dt = 2e-3, levels = )" +
-            std::to_string(levels) + " }" + pier("brick"),
-        to.path, Existing::refuse);
+                    std::to_string(levels) + " }" + pier("brick"),
+                to.path, Existing::refuse);
     const CsvTable rows = read_csv(to.path + "/histories.csv");
     const std::vector<double> t = rows.column("time_s"), v = rows.column("plate_vx_rel_m_s");
     const double w = 2 * pi * 3;
@@ -165,7 +157,7 @@ TEST_CASE("the ledger of bricks at rest closes beside a shorter interval", "[lev
     box{ name = "small", material = "hard", free = true, size = {0.03, 0.03, 0.01}, center = {2, 0, 0.105} })" +
                                pier("hard") + "\n    analysis{ duration = 1, levels = " + std::to_string(levels) + " }";
       const test::Scratch to("levels_rest");
-      const Metrics m = run(text, to.path, Existing::refuse);
+      const Metrics m = dynamic_run(text, to.path, Existing::refuse);
       INFO("kn " << kn << ", levels " << levels);
       CHECK(m.status == "completed");
       CHECK(m.residual_relative < 2e-5);
@@ -189,7 +181,7 @@ TEST_CASE("a macro step is no longer than the time between two rows", "[levels]"
     analysis{{ duration = {}, output_dt = {}, levels = {} }})",
                                            pier("soft"), duration, every, levels);
       const test::Scratch to("levels_rows");
-      const std::string hash = run(text, to.path, Existing::refuse).state_hash;
+      const std::string hash = dynamic_run(text, to.path, Existing::refuse).state_hash;
       if (levels == 1) one_level = hash;
       else CHECK(hash != one_level);  // levels were used
       const std::vector<double> t = read_csv(to.path + "/energy.csv").column("time_s");
@@ -230,7 +222,7 @@ TEST_CASE("a soft contact on a block with a stiff joint acts as often as the joi
     analysis{{ duration = 0.2, start = "equilibrium", levels = {} }})",
                                          ratio, levels);
     const test::Scratch to("levels_two_springs");
-    return run(text, to.path, Existing::refuse);
+    return dynamic_run(text, to.path, Existing::refuse);
   };
   for (const double ratio : {1.0, 1e2, 1e4, 1e6}) {
     INFO("ratio " << ratio);
@@ -244,11 +236,11 @@ TEST_CASE("a soft contact on a block with a stiff joint acts as often as the joi
 TEST_CASE("a run with levels has the same bits for any number of threads, and when it was stopped within macro steps", "[levels][resume]") {
   const std::string text = falling(5);
   const test::Scratch whole("levels_whole"), threads("levels_threads"), parts("levels_parts");
-  const Metrics expected = run(text, whole.path, Existing::refuse);
-  CHECK(run(text, threads.path, Existing::refuse, {}, 3).state_hash == expected.state_hash);
+  const Metrics expected = dynamic_run(text, whole.path, Existing::refuse);
+  CHECK(dynamic_run(text, threads.path, Existing::refuse, {}, 3).state_hash == expected.state_hash);
   Existing existing = Existing::refuse;
-  for (const double until : {0.3, 0.45, 0.5203, 0.61, 0.8}) run(text, parts.path, existing, until), existing = Existing::resume;
-  const Metrics got = run(text, parts.path, existing);
+  for (const double until : {0.3, 0.45, 0.5203, 0.61, 0.8}) dynamic_run(text, parts.path, existing, until), existing = Existing::resume;
+  const Metrics got = dynamic_run(text, parts.path, existing);
   CHECK(got.steps == expected.steps);
   CHECK(got.state_hash == expected.state_hash);
   CHECK(got.energy == expected.energy);

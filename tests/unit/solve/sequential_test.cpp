@@ -9,10 +9,12 @@
 #include "lua/language/script.h"
 #include "tests/support/small_wall.h"
 #include "tests/unit/record/two_bricks.h"
+#include "tests/unit/solve/scene_run.h"
 
 using namespace erbs;
 using namespace erbs::analysis;
 using namespace erbs::lua;
+using test::dynamic_run;
 
 namespace {
 
@@ -30,16 +32,6 @@ analysis{ duration = 0.25, dt_fraction = 0.02, solver = "sequential", unstable =
          analysis + " }\n";
 }
 
-Metrics run(const std::string& text, const std::string& dir, Existing existing = Existing::force, std::optional<double> until = {}) {
-  Script script(Script::Options{.quiet = true});
-  const Scene scene = script.load_text(text, "pillar.lua", {});
-  RunOptions options;
-  options.directory = dir;
-  options.existing = existing;
-  options.until = until;
-  return run_dynamic(scene, text, options).metrics;
-}
-
 Model wall_model(const std::string& order) {
   return prepare(test::small_wall("analysis{duration=1, solver=\"sequential\", order=\"" + order + "\"}"), false).model;
 }
@@ -50,19 +42,20 @@ TEST_CASE("a sequential run depends on its seed alone, and one stopped and resum
   const test::Scratch whole("sequential_whole"), parts("sequential_parts");
   for (const char* kind : {"seed = 5", "variant = 'centred', order = 'coloured'", "order = 'fixed', iterations = 3"}) {
     INFO(kind);
-    const Metrics expected = run(pillar(kind), whole.path);
+    const Metrics expected = dynamic_run(pillar(kind), whole.path, Existing::force);
     CHECK(expected.status == "completed");
     CHECK(expected.energy.at(7).second > 0);   // fracture: joints have cracked
     CHECK(expected.momentum_residual > 1e-6);  // action does not equal reaction, and the residual shows it
-    CHECK(run(pillar(kind), whole.path).state_hash == expected.state_hash);
-    CHECK(run(pillar(kind), parts.path, Existing::force, 0.11).status == "stopped");
-    const Metrics got = run(pillar(kind), parts.path, Existing::resume);
+    CHECK(dynamic_run(pillar(kind), whole.path, Existing::force).state_hash == expected.state_hash);
+    CHECK(dynamic_run(pillar(kind), parts.path, Existing::force, 0.11).status == "stopped");
+    const Metrics got = dynamic_run(pillar(kind), parts.path, Existing::resume);
     CHECK(got.state_hash == expected.state_hash);
     CHECK(got.energy == expected.energy);
     CHECK(got.residual_relative == expected.residual_relative);
     CHECK(got.momentum_residual == expected.momentum_residual);
   }
-  CHECK(run(pillar("seed = 1"), whole.path).state_hash != run(pillar("seed = 2"), whole.path).state_hash);
+  CHECK(dynamic_run(pillar("seed = 1"), whole.path, Existing::force).state_hash !=
+        dynamic_run(pillar("seed = 2"), whole.path, Existing::force).state_hash);
 }
 
 // Packs update intact joints incrementally between reference updates; the plain sweep is exact. The largest error comes from resultants,
@@ -72,8 +65,8 @@ TEST_CASE("joints side by side and blocks in rounds give what the plain sweep gi
   const test::Scratch quick("sequential_quick"), plain("sequential_plain");
   for (const char* kind : {"seed = 5", "variant = 'centred', order = 'coloured'", "order = 'fixed', iterations = 3"}) {
     INFO(kind);
-    const Metrics expected = run(pillar(kind + std::string(", kernel = 'reference'")), plain.path, Existing::force, 0.11);
-    const Metrics got = run(pillar(kind), quick.path, Existing::force, 0.11);
+    const Metrics expected = dynamic_run(pillar(kind + std::string(", kernel = 'reference'")), plain.path, Existing::force, 0.11);
+    const Metrics got = dynamic_run(pillar(kind), quick.path, Existing::force, 0.11);
     CHECK(got.energy.at(7).second > 0);  // fracture
     CHECK(got.joints_broken == expected.joints_broken);
     for (std::size_t i = 0; i < got.energy.size(); ++i)
@@ -116,8 +109,10 @@ force{ block = "pushed", wave = sine{ amplitude = 50, frequency = 40 }, directio
 joint{ law = mortar{ kn = 1e9, ks = 4e8, ft = 1*MPa, c = 1*MPa, mu = 0.6 } }
 )";
   const test::Scratch one("sequential_one"), other("sequential_other");
-  const Metrics swept = run(text + "analysis{ duration = 0.05, solver = 'sequential', lazy_rotation = 0 }", one.path);
-  const Metrics leapt = run(text + "analysis{ duration = 0.05, kernel = 'reference', lazy_rotation = 0 }", other.path);
+  const Metrics swept =
+      dynamic_run(text + "analysis{ duration = 0.05, solver = 'sequential', lazy_rotation = 0 }", one.path, Existing::force);
+  const Metrics leapt =
+      dynamic_run(text + "analysis{ duration = 0.05, kernel = 'reference', lazy_rotation = 0 }", other.path, Existing::force);
   for (std::size_t i = 0; i < leapt.energy.size(); ++i)
     CHECK(swept.energy[i].second == Approx(leapt.energy[i].second).epsilon(1e-6).margin(1e-12));
   CHECK(swept.residual_relative == Approx(leapt.residual_relative).epsilon(0.01));
@@ -168,7 +163,7 @@ TEST_CASE("a sequential run that makes more energy than there is ends as diverge
   std::string text = pillar("seed = 1");
   text.replace(text.find("duration = 0.25, dt_fraction = 0.02"), 35, "duration = 20, dt_fraction = 0.5");
   text.replace(text.find("ft = 0.05*MPa, c = 0.1*MPa"), 26, "ft = 1e9, c = 1e9");  // a broken pillar falls apart and feeds no more energy
-  const Metrics got = run(text, scratch.path);
+  const Metrics got = dynamic_run(text, scratch.path, Existing::force);
   CHECK(got.status == "diverged");
   CHECK(got.time_s < 2);
 }

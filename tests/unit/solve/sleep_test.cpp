@@ -5,10 +5,12 @@
 #include "engine/record/folder/checkpoint.h"
 #include "tests/support/small_wall.h"
 #include "tests/unit/record/two_bricks.h"
+#include "tests/unit/solve/scene_run.h"
 
 using namespace erbs;
 using namespace erbs::analysis;
 using namespace erbs::lua;
+using test::block_index;
 
 namespace {
 
@@ -50,10 +52,6 @@ void go(Ran& r, const std::string& script, double until, double from = 1e9, int 
     if (r.solver->advance({.next = from}) == Solver::Stop::sample) r.count.push_back({r.solver->sample().t, s.sleep.count});
 }
 
-int block(const Model& m, const std::string& name) {
-  return int(std::find(m.block_name.begin(), m.block_name.end(), name) - m.block_name.begin());
-}
-
 // m, at the earlier of the two ends. Impacts shorten the step, and a run ends with the first step past its end.
 double apart(const Ran& a, const Ran& b) {
   double out = 0;
@@ -74,7 +72,7 @@ TEST_CASE("a heap that sleeps lies where the one that does not lies", "[solve][s
   CHECK(l.sleep.count == 0);
   INFO("apart " << apart(still, lively) << " m");
   CHECK(apart(still, lively) < 1e-6);  // m: possible creep of 1e-6 m/s for a second, had it not come to rest by itself
-  CHECK(s.motion.v[std::size_t(block(still.run.model, "b3"))].norm() == 0);
+  CHECK(s.motion.v[std::size_t(block_index(still.run.model, "b3"))].norm() == 0);
   CHECK(s.energy.sleep > 0);
   CHECK(s.energy.sleep < 10 * 0.5 * 6.75 * 1e-12);  // ten bricks at the speed limit of sleep
   CHECK(s.energy.residual_worst < 1.01 * l.energy.residual_worst);
@@ -86,7 +84,7 @@ TEST_CASE("a heap that sleeps lies where the one that does not lies", "[solve][s
   double weight = 0;
   for (int b = 0; b < m.nblock; ++b)
     if (m.kind[std::size_t(b)] == Kind::moving && m.block_name[std::size_t(b)] != "top") weight += m.mass[std::size_t(b)] * standard_g;
-  CHECK(-still.solver->block_wrench(block(m, "ground")).z() == Approx(weight).epsilon(1e-3));
+  CHECK(-still.solver->block_wrench(block_index(m, "ground")).z() == Approx(weight).epsilon(1e-3));
   CHECK(still.solver->contacts().slept() > 0);
 }
 

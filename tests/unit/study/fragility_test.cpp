@@ -14,8 +14,6 @@ using namespace erbs::study;
 
 namespace {
 
-constexpr double infinite = std::numeric_limits<double>::infinity();
-
 double normal_of(Random& random) {
   const double u = 1 - random.uniform();
   return std::sqrt(-2 * std::log(u)) * std::cos(2 * pi * random.uniform());

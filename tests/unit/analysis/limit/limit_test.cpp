@@ -4,6 +4,7 @@
 
 #include "engine/analysis/limit/outcome.h"
 #include "engine/base/units.h"
+#include "tests/support/places.h"
 #include "tests/unit/analysis/limit/limit_scenes.h"
 #include "tests/unit/lua/load.h"
 
@@ -215,7 +216,7 @@ TEST_CASE("an iteration that does not settle says so, and gives no number beyond
   for (const char* rows : {"2", "4"}) {
     Script script(quiet());
     const Scene& scene =
-        script.load(ERBS_SOURCE_DIR "/scenes/valens_aqueduct.lua", {{"bays", "1"}, {"rows", rows}, {"spacing", "1.5"}, {"length", "1.1"}});
+        script.load(in_source("/scenes/valens_aqueduct.lua"), {{"bays", "1"}, {"rows", rows}, {"spacing", "1.5"}, {"length", "1.1"}});
     const Model model = build(scene).model;
     LimitOptions options;
     options.no_tension = true;

@@ -20,8 +20,8 @@ joint { law = mortar { kn = 1e8, ks = 4e7, ft = 1e9, c = 1e9, mu = .6 } }
 recorder { name = "block", quantity = "displacement", block = "block", axis = "z" }
 analysis { duration = 65 / w, output_dt = 1e-9, start = "rest" @ }
 )";
-const std::string period = "metric('period', 's', function(run) return run.period 'block_uz_rel_m' end)\n";
-const std::string known = "expect('metrics.period', 2 * pi / w, { rel = 0.1 })\n";
+const std::string period_metric = "metric('period', 's', function(run) return run.period 'block_uz_rel_m' end)\n";
+const std::string known_period = "expect('metrics.period', 2 * pi / w, { rel = 0.1 })\n";
 
 std::string with(const std::string& analysis) {
   std::string text = oscillator;
@@ -37,7 +37,7 @@ std::string with_knob(const std::string& knob) {
       "local kn, stiff = param('kn', 1e8), param('trouble', 1)\nif stiff == 3 then error('no scene for this value') end\n" + with("");
   for (std::size_t at; (at = out.find("= 1e8,")) != std::string::npos;) out.replace(at, 6, "= kn,");
   for (std::size_t at; (at = out.find("(1e8 /")) != std::string::npos;) out.replace(at, 6, "(kn /");
-  return out + period + "expect('metrics.length', 1, { rel = 1 })\n" +
+  return out + period_metric + "expect('metrics.length', 1, { rel = 1 })\n" +
          "metric('length', '', function(run) return 1 + run.period 'block_uz_rel_m' end)\nlabel('quality_only', 'fixed_dt')\n" + knob +
          "\n";
 }
@@ -61,7 +61,7 @@ TEST_CASE("accuracy of a metric that fails, or of none, says so, and by what err
 
 TEST_CASE("accuracy tells slopes, a target's setting and what it costs; its table is reproducible", "[program]") {
   Bench bench;
-  const std::string scene = bench.scene(with("") + period + known);
+  const std::string scene = bench.scene(with("") + period_metric + known_period);
   REQUIRE(bench.erbs({"accuracy", scene, "-o", bench.out(), "--target", "0.1%"}) == 0);
   INFO(bench.said);
   CHECK(
@@ -92,7 +92,7 @@ TEST_CASE("accuracy tells slopes, a target's setting and what it costs; its tabl
 
 TEST_CASE("runs of accuracy that do not fit into the time of all are told, and made later", "[program]") {
   Bench bench;
-  const std::string scene = bench.scene(with("") + period + known);
+  const std::string scene = bench.scene(with("") + period_metric + known_period);
   REQUIRE(bench.erbs({"accuracy", scene, "-o", bench.out(), "--within", "1ms"}) == 0);  // the first two have begun by then
   CHECK(contains(bench.said, "not run: the time limit of the study was reached"));
   CHECK(contains(bench.said, "--resume makes them"));
@@ -104,14 +104,14 @@ TEST_CASE("accuracy of a scene without a number says what to add", "[program]") 
   Bench bench;
   CHECK(bench.erbs({"accuracy", bench.scene(with("")), "-o", bench.out()}) == 2);
   CHECK(contains(bench.said, "add a metric"));
-  CHECK(bench.erbs({"accuracy", bench.scene(with("") + period), "-o", bench.out(), "--target", "often"}) == 2);
+  CHECK(bench.erbs({"accuracy", bench.scene(with("") + period_metric), "-o", bench.out(), "--target", "often"}) == 2);
 }
 
 TEST_CASE("a map of a scene tells what converged and where it goes on", "[program]") {
   Bench bench;
   CHECK(bench.erbs({"accuracy", bench.scene(with("")), "--map", "-o", bench.out()}) == 2);
   CHECK(contains(bench.said, "add one"));
-  const std::string scene = bench.scene(with(", unstable = false") + period);
+  const std::string scene = bench.scene(with(", unstable = false") + period_metric);
   REQUIRE(bench.erbs({"accuracy", scene, "--map", "--budget", "1s", "-o", bench.out()}) == 0);
   INFO(bench.said);
   CHECK(contains(bench.said, "--resume --budget 60m continues"));
@@ -124,8 +124,8 @@ TEST_CASE("a map of a scene tells what converged and where it goes on", "[progra
 
 TEST_CASE("a window of a record, other stiffness and other damping from the command line", "[program]") {
   Bench bench;
-  REQUIRE(bench.run(with("") + period, {"--force", "--no-figures", "--dt-fraction", "0.1", "--stiffness", "4", "--damping", "0",
-                                        "--damping-form", "explicit", "--from", "1"}) == 0);
+  REQUIRE(bench.run(with("") + period_metric, {"--force", "--no-figures", "--dt-fraction", "0.1", "--stiffness", "4", "--damping", "0",
+                                               "--damping-form", "explicit", "--from", "1"}) == 0);
   const Json metrics = read_json(bench.out() + "/metrics.json");
   CHECK(metrics["metrics"]["period"].get<double>() == Approx(pi / std::sqrt(1e8 / 200)).epsilon(0.05));
   CHECK(contains(text_of(bench.folder / "out/log.txt"), "--stiffness 4"));

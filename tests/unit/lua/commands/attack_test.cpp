@@ -4,6 +4,7 @@
 #include "engine/base/text.h"
 #include "engine/record/format/json.h"
 #include "lua/language/api.h"
+#include "tests/support/places.h"
 #include "tests/unit/lua/bench.h"
 
 using namespace erbs;
@@ -14,7 +15,7 @@ namespace fs = std::filesystem;
 namespace {
 
 // Six lines, so that a test's own line is line 7.
-const std::string pier = four_bricks() + R"(joint{ law = dry{ kn = 1*GPa, mu = .6 } }
+const std::string dry_pier = four_bricks() + R"(joint{ law = dry{ kn = 1*GPa, mu = .6 } }
 analysis{ duration = param("duration", 0.01, "[s]") }
 
 )";
@@ -81,7 +82,7 @@ TEST_CASE("no string of the language takes control characters or bytes that are 
 
 TEST_CASE("figures, recorders, metrics and titles of any letters are drawn and run nothing", "[attack]") {
   Bench bench;
-  std::string scene = "-- <b> ]]> 'title' \"of\" system('touch pwned') \\\n" + pier;
+  std::string scene = "-- <b> ]]> 'title' \"of\" system('touch pwned') \\\n" + dry_pier;
   scene += "recorder{ name = 'top', quantity = 'displacement', block = 'b3' }\n";
   int n = 0;
   for (const std::string& text : signs) {
@@ -112,7 +113,7 @@ TEST_CASE("folders and scenes of any name are drawn and run nothing", "[attack]"
   for (const std::string name : {"<touch pwned", "it's 'quoted' ]]>", "Häuschen", "-o", "a\nb\x1b[31m", "\xff", "|touch pwned", "tcp:1"}) {
     Bench bench;
     fs::create_directories(bench.folder / name);
-    std::ofstream(bench.folder / name / (name + ".lua")) << pier;
+    std::ofstream(bench.folder / name / (name + ".lua")) << dry_pier;
     CHECK(bench.erbs({"run", (bench.folder / name / (name + ".lua")).string(), "-o", (bench.folder / name / "out").string()}) == 0);
     INFO(bench.said);
     CHECK(is_plain(bench.said.substr(0, bench.said.find('\n'))));
@@ -128,20 +129,20 @@ TEST_CASE("what a script says in its own words reaches the terminal escaped", "[
   for (const std::string& text : controls)
     for (const std::string& sentence : {"error(" + in_lua(text) + ")", "box{ [" + in_lua(text) + "] = 1 }",
                                         "local x = _G[" + in_lua(text) + "]", "local t = {} t." + std::string("f(") + in_lua(text) + ")"}) {
-      CHECK(bench.run(pier + sentence) == 2);
+      CHECK(bench.run(dry_pier + sentence) == 2);
       INFO(sentence << "\n" << bench.said);
       CHECK(contains(bench.said, "scene.lua:7:"));
       for (std::size_t at = 0; at < bench.said.size(); at = bench.said.find('\n', at) + 1)
         CHECK(is_plain(bench.said.substr(at, bench.said.find('\n', at) - at)));
     }
-  CHECK(bench.run(pier + "print('a\\x1b[31m\\0b')") == 0);
+  CHECK(bench.run(dry_pier + "print('a\\x1b[31m\\0b')") == 0);
   CHECK(contains(bench.said, "a\\x1b[31m\\0b"));
   CHECK(contains(text_of(bench.out() + "/log.txt"), "a\\x1b[31m\\0b"));
   CHECK(bench.erbs({"check", "no\x1b[31m.lua", "-D", "a\x1b=1"}) == 2);
   CHECK_FALSE(contains(bench.said, "\x1b"));
-  CHECK(bench.run(pier + "error(string.rep('x', 1e8))") == 2);
+  CHECK(bench.run(dry_pier + "error(string.rep('x', 1e8))") == 2);
   CHECK(bench.said.size() < 50000);
-  CHECK(bench.run(pier + "error({})") == 2);
+  CHECK(bench.run(dry_pier + "error({})") == 2);
   CHECK(contains(bench.said, "scene.lua:7: an error that is a table, not a message"));
 }
 
@@ -155,7 +156,7 @@ TEST_CASE("a scene reads inside its folder and what the command line allows", "[
   fs::create_symlink(other / "secret.csv", own / "link.csv");
   fs::create_directory_symlink(other, own / "away");
   const auto check = [&](const std::string& file, std::vector<std::string> more = {}) {
-    std::ofstream(own / "s.lua") << pier << "ground_motion{ wave = record{ file = \"" << file << "\" }, direction = 'x' }";
+    std::ofstream(own / "s.lua") << dry_pier << "ground_motion{ wave = record{ file = \"" << file << "\" }, direction = 'x' }";
     std::vector<std::string> words{"check", "-q", (own / "s.lua").string()};
     words.insert(words.end(), more.begin(), more.end());
     const int code = bench.erbs(words);
@@ -183,7 +184,7 @@ TEST_CASE("a mesh reads no other file than a scene may", "[attack]") {
       "o cube\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 2\nv 1 0 2\nv 0 1 2\nv 1 1 2\n"
       "f 4 3 2 1\nf 5 6 8 7\nf 2 3 8 6\nf 3 4 7 8\nf 4 1 5 7\nf 1 2 6 5\n";
   const auto code = [&](const std::string& file) {
-    return bench.run(pier + "mesh{ file = '" + file + "', at = {5, 5, 5}, free = true }", {"--force"});
+    return bench.run(dry_pier + "mesh{ file = '" + file + "', at = {5, 5, 5}, free = true }", {"--force"});
   };
   bench.write("fifo.obj", "mtllib /etc/passwd\n" + cube);
   CHECK(code("fifo.obj") == 0);
@@ -217,21 +218,21 @@ TEST_CASE("what a scene asks for ends soon, in time and memory, and says how", "
   };
   for (const auto& [piece, words] : list) {
     INFO(piece);
-    CHECK(bench.erbs({"check", "-q", bench.scene(pier + piece)}) == 2);
+    CHECK(bench.erbs({"check", "-q", bench.scene(dry_pier + piece)}) == 2);
     INFO(bench.said);
     CHECK(contains(bench.said, words));
     CHECK(contains(bench.said, "scene.lua"));
     CHECK(bench.said.size() < 5000);
   }
-  CHECK(bench.erbs({"check", "-q", bench.scene(pier), "--max-blocks", "3"}) == 2);
+  CHECK(bench.erbs({"check", "-q", bench.scene(dry_pier), "--max-blocks", "3"}) == 2);
   CHECK(contains(bench.said, "at most 3 blocks"));
-  CHECK(bench.erbs({"check", "-q", bench.scene(pier), "--max-points", "30"}) == 2);
+  CHECK(bench.erbs({"check", "-q", bench.scene(dry_pier), "--max-points", "30"}) == 2);
   CHECK(contains(bench.said, "36 contact points; at most 30"));
 }
 
 TEST_CASE("NaN and what has no end is outside of every range", "[attack]") {
   Bench bench;
-  const std::string scene = bench.scene(pier);
+  const std::string scene = bench.scene(dry_pier);
   for (const std::string option : {"--threads", "--dt-fraction", "--points", "--stiffness", "--damping", "--noise", "--until", "--max-wall",
                                    "--checkpoint-every", "--from", "--max-blocks", "--max-points"})
     for (const std::string value : {"nan", "-nan", "inf", "-1", "x", ""}) {
@@ -251,25 +252,25 @@ TEST_CASE("NaN and what has no end is outside of every range", "[attack]") {
         "ground_motion{ wave = record{ file = '' } }", "mesh{ file = '' }", "metric('a/b', '', 1)", "metric('a.b', '', 1)",
         "param('a b', 1)"}) {
     INFO(piece);
-    CHECK(bench.erbs({"check", "-q", bench.scene(pier + piece)}) == 2);
+    CHECK(bench.erbs({"check", "-q", bench.scene(dry_pier + piece)}) == 2);
     CHECK(contains(bench.said, "scene.lua:7: "));
   }
-  CHECK(bench.erbs({"record", ERBS_SOURCE_DIR "/scenes/records/elcentro_1940_ns.csv", "--dt", "nan"}) == 2);
+  CHECK(bench.erbs({"record", test::in_source("/scenes/records/elcentro_1940_ns.csv"), "--dt", "nan"}) == 2);
 }
 
 TEST_CASE("what only the model shows wrong is told before there is a folder", "[attack]") {
   Bench bench;
   const std::string twice =
       "recorder{ name = 'r', quantity = 'displacement', block = 'b1' } recorder{ name = 'r', quantity = 'displacement', block = 'b2' }";
-  CHECK(bench.run(pier + twice) == 2);
+  CHECK(bench.run(dry_pier + twice) == 2);
   CHECK(contains(bench.said, "scene.lua:7: "));
   CHECK_FALSE(fs::exists(bench.out()));
-  CHECK(bench.erbs({"check", "-q", bench.scene(pier + twice)}) == 2);
+  CHECK(bench.erbs({"check", "-q", bench.scene(dry_pier + twice)}) == 2);
 }
 
 TEST_CASE("texts of editors are read, others refused with a remedy", "[attack]") {
   Bench bench;
-  bench.write("bom.lua", "\xEF\xBB\xBF" + pier);
+  bench.write("bom.lua", "\xEF\xBB\xBF" + dry_pier);
   CHECK(bench.erbs({"check", "-q", (bench.folder / "bom.lua").string()}) == 0);
   bench.write("wide.lua", "\xFF\xFE-\0-\0"s);
   CHECK(bench.erbs({"check", "-q", (bench.folder / "wide.lua").string()}) == 2);
@@ -287,6 +288,6 @@ TEST_CASE("texts of editors are read, others refused with a remedy", "[attack]")
   bench.write("deep.lua", std::string(100000, '(') + "1" + std::string(100000, ')'));
   CHECK(bench.erbs({"check", "-q", (bench.folder / "deep.lua").string()}) == 2);
   CHECK(contains(bench.said, "deep.lua"));
-  CHECK(bench.erbs({"run", bench.scene(pier), "-o", (bench.folder / std::string(300, 'x')).string()}) == 2);
+  CHECK(bench.erbs({"run", bench.scene(dry_pier), "-o", (bench.folder / std::string(300, 'x')).string()}) == 2);
   CHECK(contains(bench.said, "choose another with -o DIR"));
 }

@@ -17,7 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // A block that flies for some milliseconds, with metrics that are known functions of its params.
-const std::string tiny = R"(
+const std::string decaying_block = R"(
 local a, b, ks = param("a", 1, "[m]"), param("b", 1, "[s]"), param("ks", 1, "[Pa/m]")
 material{ name = "stone", density = 2000 }
 box{ name = "b", size = { .3, .3, .3 }, at = { 0, 0, 5 }, free = true, material = "stone" }
@@ -35,7 +35,7 @@ std::string study_of(const std::string& stages, const std::string& more = "") {
 }
 
 struct Calibration : Bench {
-  Calibration() { write("tiny.lua", tiny); }
+  Calibration() { write("tiny.lua", decaying_block); }
   int calibrate(const std::string& study, const std::vector<std::string>& more = {}) {
     write("study.lua", study);
     std::vector<std::string> words{"calibrate", (folder / "study.lua").string(), "-o", out()};
@@ -78,7 +78,7 @@ TEST_CASE("a calibration finds the params of known values, stage by stage, and d
 
 TEST_CASE("a calibration says which runs it leaves out, and why", "[calibrate]") {
   Calibration bench;
-  bench.write("tiny.lua", tiny + "if a > 4 then error('no wall is so high') end\n");
+  bench.write("tiny.lua", decaying_block + "if a > 4 then error('no wall is so high') end\n");
   REQUIRE(bench.calibrate(study_of("{ fit = { a = { .1, 10 } } }"), {"-D", "b=.4"}) == 0);
   CHECK_THAT(bench.said, Catch::Contains("do not give all targets and are left out") && Catch::Contains("no wall is so high") &&
                              Catch::Contains("calibration.csv"));

@@ -12,14 +12,15 @@ namespace fs = std::filesystem;
 namespace {
 
 // A block of 800 kg that slides on a bed of 4 m2 and 50 kPa/m: it yields at 0.3 g, and has a period of 0.397 s. Shear along y.
-const std::string block = R"(
+const std::string sliding_block = R"(
 material { name = "stone", density = 2000, kn = 1e9, ks = 1e9, friction = 1 }
 box { name = "floor", size = { 6, 6, 0.5 }, at = { -3, -3, -0.5 }, fixed = true }
 box { name = "block", group = "top", size = { 2, 2, 0.1 }, at = { -1, -1, 0 } }
 joint { law = dry { kn = 1e9, ks = 5e4, mu = 0.3 } }
 )";
-const std::string push = block + "analysis { kind = 'pushover', direction = 'y', control = 'displacement', displacement = 30*mm }\n";
-const std::string load = block + "analysis { kind = 'pushover', direction = 'y', step = 0.07, bracket = 0.05 }\n";
+const std::string push =
+    sliding_block + "analysis { kind = 'pushover', direction = 'y', control = 'displacement', displacement = 30*mm }\n";
+const std::string load = sliding_block + "analysis { kind = 'pushover', direction = 'y', step = 0.07, bracket = 0.05 }\n";
 
 const double mass = 800, period = 2 * pi * std::sqrt(mass / 2e5), yield = 0.3 * standard_g;
 
@@ -114,7 +115,7 @@ TEST_CASE("a spectrum that ends too early is no failure of the run", "[capacity]
 TEST_CASE("mistakes of a spectrum are met with place and remedy", "[capacity][bad_input]") {
   const auto says = [&](const std::string& piece, const std::string& part) {
     INFO(piece << " -> " << part);
-    const auto all = mistakes_of(block + piece);
+    const auto all = mistakes_of(sliding_block + piece);
     for (const std::string& one : all) INFO(one);
     CHECK(mentions(all, part));
     CHECK(mentions(all, "scene.lua:"));
@@ -146,7 +147,7 @@ TEST_CASE("erbs capacity refuses what it cannot evaluate", "[capacity][program][
   CHECK(bench.erbs({"capacity"}) == 2);
   CHECK(bench.erbs({"capacity", bench.out(), keys}) == 2);
   CHECK(contains(bench.said, "is no run folder"));
-  REQUIRE(bench.run(block + "analysis { duration = 0.01 }", {"--no-figures"}) == 0);
+  REQUIRE(bench.run(sliding_block + "analysis { duration = 0.01 }", {"--no-figures"}) == 0);
   for (const auto& words : {std::vector<std::string>{"capacity", bench.out()}, {"capacity", bench.out(), keys}}) {
     CHECK(bench.erbs(words) == 2);
     CHECK(contains(bench.said, "this run is a time history; run its scene with analysis{ kind = \"pushover\" }"));
@@ -162,6 +163,7 @@ TEST_CASE("erbs capacity refuses what it cannot evaluate", "[capacity][program][
   CHECK(contains(bench.said, "group \"tip\" has no blocks"));
   CHECK(bench.erbs({"capacity", bench.out(), "kind = 'TBSC 2018', SDS = 0.9, SD2 = 0.3"}) == 2);
   CHECK(contains(bench.said, "unknown key \"SD2\"; did you mean \"SD"));
-  CHECK(bench.erbs({"run", bench.scene(block + "analysis { duration = 0.01 }"), "-o", bench.out() + "2", "--push-to", "0.01"}) == 2);
+  CHECK(bench.erbs({"run", bench.scene(sliding_block + "analysis { duration = 0.01 }"), "-o", bench.out() + "2", "--push-to", "0.01"}) ==
+        2);
   CHECK(contains(bench.said, "--push-to is a displacement of a pushover"));
 }

@@ -9,7 +9,7 @@ using namespace erbs::lua;
 
 namespace {
 
-std::string pier(const std::string& analysis = "") {
+std::string damped_pier(const std::string& analysis = "") {
   return four_bricks() +
          "joint{ law = mortar{ kn = 1e9, ks = 4e8, ft = 1e5, c = 2e5, mu = .6 } }\ndamping{ mass = 1 }\n"
          "recorder{ name = 't', quantity = 'displacement', block = 'b3' }\n"
@@ -21,7 +21,7 @@ std::string pier(const std::string& analysis = "") {
 
 TEST_CASE("effects runs a scene without each of its effects, and keeps what is done", "[program]") {
   Bench bench;
-  const std::string scene = bench.scene(pier());
+  const std::string scene = bench.scene(damped_pier());
   REQUIRE(bench.erbs({"effects", scene, "-o", bench.out()}) == 0);
   INFO(bench.said);
   const CsvTable table = read_csv(bench.out() + "/effects.csv");
@@ -39,7 +39,7 @@ TEST_CASE("effects runs a scene without each of its effects, and keeps what is d
 
 TEST_CASE("effects of an inaccurate run are shown with a warning", "[program]") {
   Bench bench;
-  CHECK(bench.erbs({"effects", bench.scene(pier(", energy_gate = 1e-30")), "-o", bench.out(), "-j", "2"}) == 0);
+  CHECK(bench.erbs({"effects", bench.scene(damped_pier(", energy_gate = 1e-30")), "-o", bench.out(), "-j", "2"}) == 0);
   INFO(bench.said);
   CHECK(contains(bench.said, "the run of the whole scene is inaccurate"));
   const CsvTable table = read_csv(bench.out() + "/effects.csv");
@@ -51,10 +51,10 @@ TEST_CASE("effects of an inaccurate run are shown with a warning", "[program]") 
 TEST_CASE("a run of effects that fails is a row with its reason, and the scene itself must run", "[program]") {
   Bench bench;
   // Past the limit of the step: every run diverges, and says so.
-  const int code = bench.erbs({"effects", bench.scene(pier(", dt = { 1e-2, unstable = true }")), "-o", bench.out()});
+  const int code = bench.erbs({"effects", bench.scene(damped_pier(", dt = { 1e-2, unstable = true }")), "-o", bench.out()});
   INFO(bench.said);
   CHECK(code == 2);
   CHECK(contains(bench.said, "scene.lua"));
-  CHECK(bench.erbs({"effects", bench.scene(pier()), "-o", bench.out(), "--force", "--max-wall", "1ms", "-j", "2"}) == 2);
+  CHECK(bench.erbs({"effects", bench.scene(damped_pier()), "-o", bench.out(), "--force", "--max-wall", "1ms", "-j", "2"}) == 2);
   CHECK(contains(bench.said, "took longer than max_wall"));
 }

@@ -6,6 +6,7 @@
 #include <thread>
 
 #include "engine/record/format/json.h"
+#include "tests/support/places.h"
 #include "tests/unit/lua/bench.h"
 
 using namespace erbs;
@@ -33,7 +34,7 @@ std::pair<int, std::string> in_shell(const Bench& bench, const std::string& befo
                                      const std::string& after = "") {
   const std::string log = (bench.folder / "shell.log").string();
   const int code =
-      wait_for(start({"/bin/sh", "-c", "exec 2> " + log + "; " + before + " exec " ERBS_BINARY_DIR "/erbs " + words + " " + after}));
+      wait_for(start({"/bin/sh", "-c", "exec 2> " + log + "; " + before + " exec " + test::in_build("/erbs ") + words + " " + after}));
   return {code, text_of(log)};
 }
 
@@ -196,7 +197,7 @@ TEST_CASE("a run goes on from any folder, and beside a manifest that is damaged"
   fs::create_directories(bench.folder / "z");
   const auto from = [&](const std::string& folder, const std::string& words) {
     const std::string command =
-        "cd " + (bench.folder / folder).string() + " && exec " ERBS_BINARY_DIR "/erbs run " + words + " -q --no-figures --resume";
+        "cd " + (bench.folder / folder).string() + " && exec " + test::in_build("/erbs run ") + words + " -q --no-figures --resume";
     return wait_for(start({"/bin/sh", "-c", command}, (bench.folder / "log").string()));
   };
   CHECK(from("", "scene.lua -o out --until 0.15") == 3);

@@ -2,6 +2,7 @@
 #include <catch2/catch.hpp>
 
 #include "engine/base/system/process.h"
+#include "tests/support/places.h"
 #include "tests/unit/lua/bench.h"
 
 using namespace erbs;
@@ -10,7 +11,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-const std::string falling =
+const std::string dry_and_shaken =
     "joint{ law = dry{ kn = 1*GPa, mu = .6 } }\n"
     "ground_motion{ wave = sine{ amplitude = 9, frequency = 2*Hz }, direction = 'x' }\n";
 
@@ -19,7 +20,7 @@ const std::string falling =
 TEST_CASE("an exported run is read back by VTK and h5py", "[program][export]") {
   const bool stress = GENERATE(true, false);
   Bench bench;
-  REQUIRE(bench.run(four_bricks() + falling + fmt::format("analysis{{ duration = .3, frame_stress = {} }}", stress)) == 0);
+  REQUIRE(bench.run(four_bricks() + dry_and_shaken + fmt::format("analysis{{ duration = .3, frame_stress = {} }}", stress)) == 0);
   const std::string folder = bench.out() + "/export";
   REQUIRE(bench.erbs({"export", bench.out(), "--format", "gltf,vtu,xdmf,hdf5"}) == 0);
   CHECK(contains(bench.said, "frame_stress = true") == !stress);
@@ -34,7 +35,7 @@ TEST_CASE("an exported run is read back by VTK and h5py", "[program][export]") {
     return;
   }
   const fs::path log = fs::path(bench.out()) / "read_back.txt";
-  const int code = wait_for(start({python, ERBS_SOURCE_DIR "/tests/export/read_back.py", folder, stem}, log));
+  const int code = wait_for(start({python, test::in_source("/tests/export/read_back.py"), folder, stem}, log));
   INFO(text_of(log));
   CHECK((code != 0 || contains(text_of(log), stress ? "with tractions" : "without tractions")));
   if (code == 77) {
@@ -46,7 +47,7 @@ TEST_CASE("an exported run is read back by VTK and h5py", "[program][export]") {
 
 TEST_CASE("a span or an instant outside of the run is refused before anything is written, or told", "[program][export][bad_input]") {
   Bench bench;
-  REQUIRE(bench.run(four_bricks() + falling + "analysis{ duration = .3 }") == 0);
+  REQUIRE(bench.run(four_bricks() + dry_and_shaken + "analysis{ duration = .3 }") == 0);
   const auto refused = [&](std::vector<std::string> words, const char* why) {
     words.insert(words.begin(), {"export", bench.out()});
     INFO(why);

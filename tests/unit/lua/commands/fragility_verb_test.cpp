@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "engine/record/format/csv.h"
-#include "tests/unit/lua/bench.h"
+#include "tests/unit/lua/commands/study_bench.h"
 
 using namespace erbs;
 using namespace erbs::lua;
@@ -11,7 +11,7 @@ using namespace erbs::lua;
 namespace {
 
 // Twelve cases with capacities 1.5 e^(.4 z), z the quantiles of the normal law at (seed - .5) / 12.
-const std::string tiny = R"(
+const std::string fragile_block = R"(
 local z = { -1.732, -1.150, -.812, -.549, -.319, -.105, .105, .319, .549, .812, 1.150, 1.732 }
 local pga, seed = param("pga", 1, "[m/s2]"), param("seed", 1)
 local capacity = 1.5 * math.exp(.4 * z[seed])
@@ -22,14 +22,8 @@ metric("fell", "", function() return pga > capacity and 1 or 0 end)
 metric("drift", "", function() return .1 * pga / capacity end)
 )";
 
-struct Study : Bench {
-  Study() { write("tiny.lua", tiny); }
-  int sweep(const std::string& study, const std::vector<std::string>& more = {}, const std::string& directory = "") {
-    write("study.lua", study);
-    std::vector<std::string> words{"sweep", (folder / "study.lua").string(), "-o", directory.empty() ? out() : directory};
-    words.insert(words.end(), more.begin(), more.end());
-    return erbs(words);
-  }
+struct FragilityStudy : test::StudyBench {
+  FragilityStudy() : StudyBench(fragile_block) {}
   std::string tables(const std::string& directory = "") const {
     std::string all;
     for (const char* file : {"fragility.csv", "stripes.csv", "fractiles.csv"})
@@ -45,7 +39,7 @@ const std::string stripes = R"(study{ scene = "tiny.lua", keep = "none", collect
 }  // namespace
 
 TEST_CASE("a study gives its fragility, the same for any number of runs at once and after a stop", "[sweep][fragility]") {
-  Study study;
+  FragilityStudy study;
   REQUIRE(study.sweep(stripes, {"-j", "3"}) == 0);
   const std::string first = study.tables();
   const CsvTable table = read_csv(study.out() + "/fragility.csv");
@@ -70,7 +64,7 @@ TEST_CASE("a study gives its fragility, the same for any number of runs at once 
 }
 
 TEST_CASE("capacities by bisection give the moments of their logarithms", "[sweep][fragility]") {
-  Study study;
+  FragilityStudy study;
   REQUIRE(study.sweep(R"(study{ scene = "tiny.lua", keep = "none", vary = { grid{ seed = { 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12 } } },
     bisect = { param = "pga", lo = .1, hi = 2.2, rel = .01, key = "metrics.fell" }, fragility = { im = "pga" } })") == 0);
   const CsvTable table = read_csv(study.out() + "/fragility.csv");
@@ -82,7 +76,7 @@ TEST_CASE("capacities by bisection give the moments of their logarithms", "[swee
 }
 
 TEST_CASE("a study without a collapse says so in words", "[sweep][fragility]") {
-  Study study;
+  FragilityStudy study;
   REQUIRE(study.sweep(R"(study{ scene = "tiny.lua", keep = "none", vary = { grid{ seed = { 1, 2 }, pga = { .1, .2 } } },
     fragility = { im = "pga", collapse = "metrics.fell" } })") == 0);
   const std::string text = study.tables();
@@ -90,14 +84,14 @@ TEST_CASE("a study without a collapse says so in words", "[sweep][fragility]") {
 }
 
 TEST_CASE("runs at intensity zero are no runs without an answer", "[sweep][fragility]") {
-  Study study;
+  FragilityStudy study;
   REQUIRE(study.sweep(R"(study{ scene = "tiny.lua", keep = "none", vary = { grid{ seed = { 1, 6, 12 }, pga = { 0, 1, 1.9 } } },
     fragility = { im = "pga", collapse = "metrics.fell" } })") == 0);
   CHECK_THAT(study.tables(), Catch::Contains("3 runs at intensity 0 have no part in the fit") && !Catch::Contains("without an answer"));
 }
 
 TEST_CASE("perturbations give each run its own noise, the same in every study", "[sweep][fragility]") {
-  Study study;
+  FragilityStudy study;
   study.write("tiny.lua", R"(material{ name = "stone", density = 2000 }
 box{ name = "b", size = { .3, .3, 1 }, at = { 0, 0, 5 }, free = true, material = "stone" }
 recorder{ name = "b", quantity = "displacement", block = "b", axis = "x" }
@@ -116,7 +110,7 @@ metric("x", "m", function(run) return run.last("b_ux_rel_m") end))");
 }
 
 TEST_CASE("mistakes in a fragility name the key and the remedy", "[sweep][fragility]") {
-  Study study;
+  FragilityStudy study;
   const auto says = [&](const std::string& fragility, const std::string& what) {
     INFO(fragility);
     CHECK(study.sweep("study{ scene = 'tiny.lua', vary = { grid{ pga = { 1, 2 } } }, fragility = { " + fragility + " } }", {"--force"}) ==

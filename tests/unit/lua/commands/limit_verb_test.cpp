@@ -9,7 +9,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr const char* block = R"(
+constexpr const char* tall_block = R"(
 material { name = "stone", density = 2000 }
 box { name = "floor", size = { 8, 8, 1 }, at = { -4, -4, -1 }, fixed = true, material = "stone" }
 joint { law = dry { kn = 1e10, mu = 0.7 } }
@@ -21,7 +21,7 @@ analysis { duration = 1 }
 
 TEST_CASE("erbs limit says multiplier, tilting angle and mechanism", "[limit][program]") {
   Bench bench;
-  bench.write("block.lua", block);
+  bench.write("block.lua", tall_block);
   const std::string scene = (bench.folder / "block.lua").string();
   REQUIRE(bench.erbs({"limit", scene}) == 0);
   for (const char* part :
@@ -41,9 +41,9 @@ TEST_CASE("erbs limit says multiplier, tilting angle and mechanism", "[limit][pr
 
 TEST_CASE("erbs limit says no tilting angle where a tilt is another load", "[limit][program]") {
   Bench bench;
-  std::string bonded = block;
+  std::string bonded = tall_block;
   bonded.replace(bonded.find("dry {"), 5, "mortar { ft = 1e3, c = 2e3,");
-  for (const std::string& text : {bonded, block + std::string("force{ block = 'block', direction = { 0, 0, -1 }, wave = 1e4 }\n")}) {
+  for (const std::string& text : {bonded, tall_block + std::string("force{ block = 'block', direction = { 0, 0, -1 }, wave = 1e4 }\n")}) {
     bench.write("block.lua", text);
     REQUIRE(bench.erbs({"limit", (bench.folder / "block.lua").string(), "-o", bench.out(), "--force"}) == 0);
     INFO(bench.said);
@@ -54,7 +54,7 @@ TEST_CASE("erbs limit says no tilting angle where a tilt is another load", "[lim
 
 TEST_CASE("erbs limit writes its numbers, its thrusts and a figure", "[limit][program]") {
   Bench bench;
-  bench.write("block.lua", block);
+  bench.write("block.lua", tall_block);
   const std::string scene = (bench.folder / "block.lua").string();
   REQUIRE(bench.erbs({"limit", scene, "-o", bench.out()}) == 0);
   const Json numbers = read_json(bench.out() + "/limit.json");
@@ -77,7 +77,7 @@ TEST_CASE("erbs limit writes its numbers, its thrusts and a figure", "[limit][pr
 
 TEST_CASE("erbs limit refuses what has no answer, with the remedy", "[limit][program]") {
   Bench bench;
-  bench.write("block.lua", block);
+  bench.write("block.lua", tall_block);
   const std::string scene = (bench.folder / "block.lua").string();
   const std::pair<std::vector<std::string>, const char*> wrong[]{
       {{"--direction", "0,0,0"}, "no length"},   {{"--direction", "up"}, "it is no direction"},

@@ -4,6 +4,7 @@
 
 #include "engine/scene/scene.h"
 #include "lua/commands/help.h"
+#include "tests/support/places.h"
 #include "tests/unit/lua/load.h"
 
 using namespace erbs;
@@ -12,7 +13,7 @@ using namespace erbs::lua;
 namespace {
 
 std::string editor_file_of_the_tree() {
-  std::ifstream stream(ERBS_SOURCE_DIR "/lua/erbs.meta.lua");
+  std::ifstream stream(test::in_source("/lua/erbs.meta.lua"));
   return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
 }
 

@@ -1,6 +1,7 @@
 // The command erbs plot DIR: pictures of columns, and a cause and a remedy for each mistake.
 #include <catch2/catch.hpp>
 
+#include "tests/support/places.h"
 #include "tests/unit/lua/bench.h"
 
 using namespace erbs;
@@ -113,7 +114,7 @@ TEST_CASE("without gnuplot nothing is written", "[plot][program]") {
   Bench bench;
   const std::string run = run_folder(bench, "first");
   const int code =
-      wait_for(start({"/usr/bin/env", "PATH=" + bench.folder.string(), ERBS_BINARY_DIR "/erbs", "plot", run, "--y", "top_ux_m"},
+      wait_for(start({"/usr/bin/env", "PATH=" + bench.folder.string(), test::in_build("/erbs"), "plot", run, "--y", "top_ux_m"},
                      (bench.folder / "log").string()));
   CHECK(code == 2);
   CHECK(contains(text_of(bench.folder / "log"), "gnuplot-nox"));

@@ -12,7 +12,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-const std::string falling = R"(
+const std::string falling_brick = R"(
 material{ name = "brick", density = 1800 }
 box{ name = "b", size = { .3, .2, .1 }, center = { 0, 0, 10 }, free = true }
 analysis{ duration = param("duration", 0.1, "[s]"), dt = 1e-3, start = "rest", output_dt = 0.01 }
@@ -24,7 +24,7 @@ metric("fall", "m", function(run) return -run.last("b_uz_rel_m") end)
 
 TEST_CASE("a run ends with 0, writes its metric and judges it", "[program]") {
   Bench bench;
-  REQUIRE(bench.run(falling + "expect('metrics.fall', 0.5 * g * 0.1^2, { rel = 1e-9 })") == 0);
+  REQUIRE(bench.run(falling_brick + "expect('metrics.fall', 0.5 * g * 0.1^2, { rel = 1e-9 })") == 0);
   INFO(bench.said);
   CHECK(contains(bench.said, "expectations: 1 passed, 0 failed"));
   const Json metrics = read_json(bench.out() + "/metrics.json");
@@ -35,17 +35,17 @@ TEST_CASE("a run ends with 0, writes its metric and judges it", "[program]") {
 
 TEST_CASE("a failed expectation ends with 4", "[program]") {
   Bench bench;
-  CHECK(bench.run(falling + "expect('metrics.fall', 1, { rel = 0.1 })") == 4);
+  CHECK(bench.run(falling_brick + "expect('metrics.fall', 1, { rel = 0.1 })") == 4);
   CHECK(contains(bench.said, "FAILED metrics.fall: expected 1 rel 0.1, got 0.04905"));
 }
 
 TEST_CASE("a folder that exists is refused with the remedy, and --force replaces it", "[program]") {
   Bench bench;
-  REQUIRE(bench.run(falling, {"-q"}) == 0);
+  REQUIRE(bench.run(falling_brick, {"-q"}) == 0);
   CHECK(bench.said.empty());
-  CHECK(bench.run(falling) == 2);
+  CHECK(bench.run(falling_brick) == 2);
   CHECK(contains(bench.said, "--force"));
-  CHECK(bench.run(falling, {"--force"}) == 0);
+  CHECK(bench.run(falling_brick, {"--force"}) == 0);
 }
 
 TEST_CASE("the command line is checked", "[program]") {
@@ -54,9 +54,9 @@ TEST_CASE("the command line is checked", "[program]") {
   CHECK(bench.erbs({"runn"}) == 2);
   CHECK(bench.erbs({"run", "nope.lua"}) == 2);
   CHECK(contains(bench.said, "there is no scene nope.lua"));
-  CHECK(bench.run(falling, {"-D", "durration=1"}) == 2);
+  CHECK(bench.run(falling_brick, {"-D", "durration=1"}) == 2);
   CHECK(contains(bench.said, "-D durration=1: the scene has no param \"durration\"; did you mean \"duration\"?"));
-  CHECK(bench.run(falling, {"--max-wall", "soon"}) == 2);
+  CHECK(bench.run(falling_brick, {"--max-wall", "soon"}) == 2);
   CHECK(bench.erbs({"version"}) == 0);
   CHECK(contains(bench.said, "erbs "));
   CHECK(bench.erbs({"help", "mortar"}) == 0);
@@ -70,18 +70,18 @@ TEST_CASE("the command line is checked", "[program]") {
 
 TEST_CASE("a run stopped by --until ends with 3, and --resume ends as one run would", "[program]") {
   Bench bench;
-  REQUIRE(bench.run(falling) == 0);
+  REQUIRE(bench.run(falling_brick) == 0);
   const Json whole = read_json(bench.out() + "/metrics.json");
-  CHECK(bench.run(falling, {"--force", "--until", "0.05"}) == 3);
-  CHECK(bench.run(falling, {"--resume"}) == 0);
+  CHECK(bench.run(falling_brick, {"--force", "--until", "0.05"}) == 3);
+  CHECK(bench.run(falling_brick, {"--resume"}) == 0);
   INFO(bench.said);
   CHECK(read_json(bench.out() + "/metrics.json")["state_hash"] == whole["state_hash"]);
 }
 
 TEST_CASE("an interrupt ends with 130 and a checkpoint", "[program]") {
   Bench bench;
-  const Child child =
-      start(bench.command({"run", bench.scene(falling), "-o", bench.out(), "-D", "duration=100000"}), (bench.folder / "log").string());
+  const Child child = start(bench.command({"run", bench.scene(falling_brick), "-o", bench.out(), "-D", "duration=100000"}),
+                            (bench.folder / "log").string());
   for (int i = 0; i < 3000 && !fs::exists(bench.out() + "/histories.csv"); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(20));
   kill(child.pid, SIGINT);
   CHECK(wait_for(child) == 130);
@@ -91,8 +91,9 @@ TEST_CASE("an interrupt ends with 130 and a checkpoint", "[program]") {
 TEST_CASE("erbs test prints one row per expectation, and one for a scene that fails to run", "[program]") {
   Bench bench;
   fs::create_directories(bench.folder / "cases");
-  std::ofstream(bench.folder / "cases/good.lua") << falling << "expect('metrics.fall', 0.04905, { rel = 1e-6 })";
-  std::ofstream(bench.folder / "cases/wrong.lua") << falling << "expect('metrics.fall', 1, { abs = 0.1 })\nexpect('status', 'completed')";
+  std::ofstream(bench.folder / "cases/good.lua") << falling_brick << "expect('metrics.fall', 0.04905, { rel = 1e-6 })";
+  std::ofstream(bench.folder / "cases/wrong.lua")
+      << falling_brick << "expect('metrics.fall', 1, { abs = 0.1 })\nexpect('status', 'completed')";
   std::ofstream(bench.folder / "cases/broken.lua") << "box{ sise = 3 }\nexpect('steps', 1, { rel = 1 })";
   std::ofstream(bench.folder / "cases/part.lua") << "-- no expect(...) here";
   CHECK(bench.erbs({"test", (bench.folder / "cases").string(), "-o", bench.out(), "-j", "2"}) == 4);

@@ -1,6 +1,7 @@
 // The command erbs record FILE: numbers on stdout, figure in a folder.
 #include <catch2/catch.hpp>
 
+#include "tests/support/places.h"
 #include "tests/unit/lua/bench.h"
 
 using namespace erbs;
@@ -9,7 +10,7 @@ namespace fs = std::filesystem;
 
 TEST_CASE("El Centro's numbers are those of the catalogue", "[record][program]") {
   Bench bench;
-  const std::string file = ERBS_SOURCE_DIR "/scenes/records/elcentro_1940_ns.csv";
+  const std::string file = test::in_source("/scenes/records/elcentro_1940_ns.csv");
   REQUIRE(bench.erbs({"record", file, "-o", bench.out()}) == 0);
   for (const char* part :
        {"points                 1559", "0.31882 g", "PGV                    0.3609 m/s", "PGD                    0.2120 m",
@@ -67,7 +68,7 @@ TEST_CASE("a folder of something else is left alone", "[record][program]") {
 
 TEST_CASE("a corrected record is drawn before and after, with the end values of both", "[record][program]") {
   Bench bench;
-  const std::string file = ERBS_SOURCE_DIR "/scenes/records/elcentro_1940_ns.csv";
+  const std::string file = test::in_source("/scenes/records/elcentro_1940_ns.csv");
   const auto numbers = [&] { return read_json(bench.out() + "/record.json"); };
   const auto drawn = [&] { return text_of(bench.out() + "/record.svg"); };
   REQUIRE(bench.erbs({"record", file, "-o", bench.out()}) == 0);

@@ -6,6 +6,7 @@
 #include "engine/base/system/process.h"
 #include "engine/record/format/json.h"
 #include "lua/page/page.h"
+#include "tests/support/places.h"
 #include "tests/unit/lua/bench.h"
 
 using namespace erbs;
@@ -16,7 +17,7 @@ namespace {
 
 const char* const dry = "joint{ law = dry{ kn = 5e9, ks = 2e9, mu = 0.6 } }\n";
 
-std::string pier(double duration) {
+std::string titled_pier(double duration) {
   return "-- A pier's \"fall\" <b>über</b>\n" + four_bricks() + dry +
          fmt::format(
              "ground_motion{{ wave = sine{{ amplitude = 8, frequency = 2 }}, direction = \"y\" }}\n"
@@ -34,7 +35,7 @@ bool page_is_built() {
 bool browser_is_there() {
   const char* own = std::getenv("CHROMIUM");
   if (fs::exists(own ? own : "/usr/bin/chromium") && can_start("node") &&
-      fs::exists(ERBS_SOURCE_DIR "/lua/page/node_modules/playwright-core"))
+      fs::exists(test::in_source("/lua/page/node_modules/playwright-core")))
     return true;
   WARN("no browser test: it needs chromium, node and the packages of sh .ci/setup");
   return false;
@@ -45,7 +46,7 @@ bool browser_is_there() {
 TEST_CASE("a page holds a run and loads nothing from elsewhere", "[report][program]") {
   if (!page_is_built()) return;
   Bench bench;
-  REQUIRE(bench.run(pier(0.5)) == 0);
+  REQUIRE(bench.run(titled_pier(0.5)) == 0);
   REQUIRE(bench.erbs({"report", bench.out()}) == 0);
   CHECK(contains(bench.said, "report.html"));
   const std::string html = text_of(bench.out() + "/report.html");
@@ -70,7 +71,7 @@ TEST_CASE("a page holds a run and loads nothing from elsewhere", "[report][progr
 TEST_CASE("each folder without a run has its cause and its remedy", "[report][program]") {
   if (!page_is_built()) return;
   Bench bench;
-  REQUIRE(bench.run(pier(0.2)) == 0);
+  REQUIRE(bench.run(titled_pier(0.2)) == 0);
   const auto refused = [&](const std::vector<std::string>& words, const char* why) {
     INFO(fmt::format("{}", fmt::join(words, " ")));
     CHECK(bench.erbs(words) == 2);
@@ -93,7 +94,7 @@ TEST_CASE("each folder without a run has its cause and its remedy", "[report][pr
 TEST_CASE("a run that did not end has a page too", "[report][program]") {
   if (!page_is_built()) return;
   Bench bench;
-  REQUIRE(bench.run(pier(0.3)) == 0);
+  REQUIRE(bench.run(titled_pier(0.3)) == 0);
   for (const char* file : {"metrics.json", "histories.csv", "energy.csv", "events.csv"}) fs::remove(fs::path(bench.out()) / file);
   CHECK(bench.erbs({"report", bench.out()}) == 0);
 }
@@ -102,12 +103,12 @@ TEST_CASE("a browser replays, picks and zooms the page", "[report][browser]") {
   if (!page_is_built()) return;
   if (!browser_is_there()) return;
   Bench bench;
-  REQUIRE(bench.run(pier(1)) == 0);
+  REQUIRE(bench.run(titled_pier(1)) == 0);
   REQUIRE(bench.erbs({"report", bench.out()}) == 0);
   const std::string log = (bench.folder / "browser.log").string(), shots = (bench.folder / "shots").string();
   fs::create_directories(shots);
-  const int code = wait_for(
-      start({"node", ERBS_SOURCE_DIR "/tests/page/browser.mjs", bench.out() + "/report.html", shots, ERBS_SOURCE_DIR "/tests/page"}, log));
+  const int code = wait_for(start(
+      {"node", test::in_source("/tests/page/browser.mjs"), bench.out() + "/report.html", shots, test::in_source("/tests/page")}, log));
   INFO(text_of(log));
   CHECK(code == 0);
   for (const char* name : {"desktop.png", "phone.png", "dark.png", "large.png", "print.pdf"}) CHECK(fs::exists(fs::path(shots) / name));
@@ -116,13 +117,13 @@ TEST_CASE("a browser replays, picks and zooms the page", "[report][browser]") {
 TEST_CASE("a browser opens the page of a collapse that has no time", "[report][browser]") {
   if (!page_is_built() || !browser_is_there()) return;
   Bench bench;
-  REQUIRE(bench.run(pier(1)) == 0);
+  REQUIRE(bench.run(titled_pier(1)) == 0);
   Json metrics = read_json(bench.out() + "/metrics.json");
   metrics["collapse"]["collapsed"] = true, metrics["collapse"]["under_gravity"] = true, metrics["collapse"]["time_s"] = nullptr;
   write_json(bench.out() + "/metrics.json", metrics);
   REQUIRE(bench.erbs({"report", bench.out()}) == 0);
   const std::string log = (bench.folder / "browser.log").string();
-  const int code = wait_for(start({"node", ERBS_SOURCE_DIR "/tests/page/browser.mjs", bench.out() + "/report.html"}, log));
+  const int code = wait_for(start({"node", test::in_source("/tests/page/browser.mjs"), bench.out() + "/report.html"}, log));
   INFO(text_of(log));
   CHECK(code == 0);
 }
@@ -140,7 +141,7 @@ TEST_CASE("the page of a push tells its multiplier and its states, which a brows
   CHECK(contains(html, kind[1] == 't' ? "\"unit\":\"tan\"" : "\"unit\":\"g\""));
   if (!browser_is_there()) return;
   const std::string log = (bench.folder / "browser.log").string();
-  const int code = wait_for(start({"node", ERBS_SOURCE_DIR "/tests/page/browser.mjs", bench.out() + "/report.html"}, log));
+  const int code = wait_for(start({"node", test::in_source("/tests/page/browser.mjs"), bench.out() + "/report.html"}, log));
   INFO(text_of(log));
   CHECK(code == 0);
 }
@@ -159,7 +160,7 @@ TEST_CASE("studies of a scene have a page beside the page of their run, which a 
   CHECK(bench.erbs({"report", bench.out() + "/studies"}) == 2);
   if (!browser_is_there()) return;
   const std::string log = (bench.folder / "study.log").string();
-  const int code = wait_for(start({"node", ERBS_SOURCE_DIR "/tests/page/study.mjs", page.string()}, log));
+  const int code = wait_for(start({"node", test::in_source("/tests/page/study.mjs"), page.string()}, log));
   INFO(text_of(log));
   CHECK(code == 0);
 }

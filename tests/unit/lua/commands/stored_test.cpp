@@ -3,6 +3,7 @@
 
 #include "lua/program/options.h"
 #include "render/image/compare.h"
+#include "tests/support/places.h"
 #include "tests/unit/lua/bench.h"
 
 using namespace erbs;
@@ -12,7 +13,7 @@ namespace fs = std::filesystem;
 namespace {
 
 // A dry pier that is shaken across its plane; with `peak` = .8 g it leans visibly at .5 s.
-std::string pier(double peak, const std::string& expected, const std::string& law = "dry { kn = 5e9, ks = 2e9, mu = 0.6 }") {
+std::string leaning_pier(double peak, const std::string& expected, const std::string& law = "dry { kn = 5e9, ks = 2e9, mu = 0.6 }") {
   return fmt::format(R"(material {{ name = "brick", density = 1800 }}
 ground {{ z = 0, size = 3, material = "brick" }}
 joint {{ law = {} }}
@@ -35,14 +36,14 @@ struct StoredBench : Bench {
   std::string stored() const { return (folder / "expected/scene_near_t0.500s.png").string(); }
 };
 
-const std::string expected =
+const std::string expectations =
     "expect_image(\"near\", .5, { width = 320, height = 180 })\nexpect_stored(\"energy.base_work_J\", { rel = 1e-9 })";
 
 }  // namespace
 
 TEST_CASE("a stored picture and value hold for the same run, and tell another run apart", "[stored][program]") {
   StoredBench bench;
-  std::string text = pier(0.8, expected);
+  std::string text = leaning_pier(0.8, expectations);
   // what is not stored yet fails, and says how to store it
   REQUIRE(bench.test(text) == int(exit_expectation));
   CHECK(contains(bench.said, "no picture is stored yet; erbs test --bless stores this one"));
@@ -58,7 +59,7 @@ TEST_CASE("a stored picture and value hold for the same run, and tell another ru
   CHECK(contains(bench.said, "nothing to store"));
   // another run leaves actual, expected and difference, with one line of reason
   const std::string before = text_of(bench.stored());
-  text = pier(0.6, expected);
+  text = leaning_pier(0.6, expectations);
   REQUIRE(bench.test(text) == int(exit_expectation));
   CHECK(contains(bench.said, "of the pixels differ"));
   CHECK(contains(bench.said, "near_t0.500s_difference.png"));
@@ -79,10 +80,10 @@ TEST_CASE("a stored picture and value hold for the same run, and tell another ru
 
 TEST_CASE("pictures of both sources of OpenGL hold", "[stored][render][program]") {
   StoredBench bench;
-  REQUIRE(bench.test(pier(0.8, expected), {"--bless"}) == 0);
+  REQUIRE(bench.test(leaning_pier(0.8, expectations), {"--bless"}) == 0);
   for (const char* context : {"osmesa", "egl"}) {
     const std::string dir = (bench.folder / "runs/scene").string(), log = (bench.folder / "render.log").string();
-    const int code = wait_for(start({ERBS_BINARY_DIR "/erbs-render", dir, "--stills", "0.5", "--camera", "near", "--size", "320x180",
+    const int code = wait_for(start({test::in_build("/erbs-render"), dir, "--stills", "0.5", "--camera", "near", "--size", "320x180",
                                      "--expect", bench.stored(), "--context", context, "--force", "--no-figures"},
                                     log));
     if (code != 0 && std::string(context) == "egl" && contains(text_of(log), "EGL")) {
@@ -100,7 +101,7 @@ TEST_CASE("pictures of both sources of OpenGL hold", "[stored][render][program]"
 
 TEST_CASE("a changed run is not compared with what is stored", "[stored][program]") {
   StoredBench bench;
-  const std::string text = pier(0.8, expected + "\nparam(\"x\", 1, \"\")\nexpect(\"blocks\", 6, { abs = 0 })");
+  const std::string text = leaning_pier(0.8, expectations + "\nparam(\"x\", 1, \"\")\nexpect(\"blocks\", 6, { abs = 0 })");
   REQUIRE(bench.test(text, {"--bless"}) == 0);
   CHECK(bench.test(text, {"-D", "x=2"}) == 0);
   CHECK(contains(bench.said, "1 expectations of 1 cases"));
@@ -110,14 +111,14 @@ TEST_CASE("a changed run is not compared with what is stored", "[stored][program
 
 TEST_CASE("what was stored for another scene fails, and a changed script is named as the cause", "[stored][bad_input][program]") {
   StoredBench bench;
-  REQUIRE(bench.test(pier(0.8, expected), {"--bless"}) == 0);
-  REQUIRE(bench.test("-- a comment\n" + pier(0.8, expected)) == 0);  // the same run
-  REQUIRE(bench.test(pier(0.6, expected)) == int(exit_expectation));
+  REQUIRE(bench.test(leaning_pier(0.8, expectations), {"--bless"}) == 0);
+  REQUIRE(bench.test("-- a comment\n" + leaning_pier(0.8, expectations)) == 0);  // the same run
+  REQUIRE(bench.test(leaning_pier(0.6, expectations)) == int(exit_expectation));
   const std::size_t first = bench.said.find("the script, its files or params have changed since it was stored");
   REQUIRE(first != std::string::npos);
   CHECK(bench.said.find("the script, its files or params have changed", first + 1) != std::string::npos);  // picture and value
   // the files of another scene under the name of this one, which gives the same run
-  bench.write("twin.lua", pier(0.8, expected));
+  bench.write("twin.lua", leaning_pier(0.8, expectations));
   fs::copy_file(bench.stored(), bench.folder / "expected/twin_near_t0.500s.png");
   fs::copy_file(bench.folder / "expected/scene.json", bench.folder / "expected/twin.json");
   const std::vector<std::string> test{"test", (bench.folder / "twin.lua").string(), "-o", (bench.folder / "runs").string(), "-q"};
@@ -133,7 +134,7 @@ TEST_CASE("what was stored for another scene fails, and a changed script is name
 
 TEST_CASE("a damaged picture and one of another size are told", "[stored][bad_input][program]") {
   StoredBench bench;
-  const std::string text = pier(0.8, expected);
+  const std::string text = leaning_pier(0.8, expectations);
   REQUIRE(bench.test(text, {"--bless"}) == 0);
   std::ofstream(bench.stored()) << "no picture";
   REQUIRE(bench.test(text) == int(exit_expectation));
@@ -148,7 +149,7 @@ TEST_CASE("a damaged picture and one of another size are told", "[stored][bad_in
 
 TEST_CASE("mistakes of expect_image and expect_stored are reported with their remedy, all at once", "[stored][bad_input]") {
   StoredBench bench;
-  const std::string text = pier(0.8, R"(expect_image("nea", .5)
+  const std::string text = leaning_pier(0.8, R"(expect_image("nea", .5)
 expect_image("near", 2.6)
 expect_image("near", "a")
 expect_image("near", .1, { pixel = 3 })
@@ -167,6 +168,6 @@ expect_stored("collapse.time_s", { rel = 1, abs = 1 }))");
     INFO(said);
     CHECK(contains(bench.said, said));
   }
-  CHECK(bench.test(pier(0.8, expected), {"--bless", "--grid"}) == int(exit_usage));
+  CHECK(bench.test(leaning_pier(0.8, expectations), {"--bless", "--grid"}) == int(exit_usage));
   CHECK(contains(bench.said, "leave out --grid, --seeds and -D"));
 }

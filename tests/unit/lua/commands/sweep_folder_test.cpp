@@ -6,6 +6,7 @@
 #include <thread>
 
 #include "engine/record/format/csv.h"
+#include "tests/support/places.h"
 #include "tests/unit/lua/bench.h"
 
 using namespace erbs;
@@ -14,7 +15,7 @@ using namespace erbs::lua;
 namespace {
 
 // A block that flies for two milliseconds; how = 1: for ever, 2: without an answer.
-const std::string tiny = R"(
+const std::string flying_block = R"(
 local h, how, k = param("h", 1, "height [m]"), param("how", 0), param("k", 10, "pressure [Pa]")
 material{ name = "stone", density = 2000 }
 box{ name = "b", size = { .3, .3, h }, at = { 0, 0, 5 }, free = true, material = "stone" }
@@ -23,8 +24,8 @@ metric("double", "m", function(run) if how == 2 then return 0 / 0 end return 2 *
 metric("tall", "", function() return h > 1.37 and 1 or 0 end)
 )";
 
-struct Study : Bench {
-  Study() { write("tiny.lua", tiny); }
+struct FolderStudy : Bench {
+  FolderStudy() { write("tiny.lua", flying_block); }
   std::vector<std::string> words(const std::string& study, const std::vector<std::string>& more) const {
     write("study.lua", "study{ scene = 'tiny.lua', " + study + " }");
     std::vector<std::string> all{"sweep", (folder / "study.lua").string(), "-o", out()};
@@ -55,7 +56,7 @@ std::string with_long_end(const char* most) {
 }  // namespace
 
 TEST_CASE("a folder in which a sweep is under way is not replaced", "[sweep]") {
-  Study study;
+  FolderStudy study;
   const std::string text = with_long_end("60s");
   const Child other = start(study.command(study.words(text, {"-j", "1"})), (study.folder / "other").string());
   REQUIRE(study.wait_for_lines(4));
@@ -69,7 +70,7 @@ TEST_CASE("a folder in which a sweep is under way is not replaced", "[sweep]") {
 }
 
 TEST_CASE("rows that another program takes from a sweep are missed, and made again", "[sweep]") {
-  Study study;
+  FolderStudy study;
   const std::string text = with_long_end("3s");
   const Child other = start(study.command(study.words(text, {"-j", "1"})), (study.folder / "other").string());
   REQUIRE(study.wait_for_lines(4));
@@ -82,9 +83,9 @@ TEST_CASE("rows that another program takes from a sweep are missed, and made aga
 }
 
 TEST_CASE("a program that is replaced while its sweep is under way ends the sweep with its own runs", "[sweep]") {
-  Study study;
+  FolderStudy study;
   const auto program = study.folder / "erbs";
-  std::filesystem::copy_file(ERBS_BINARY_DIR "/erbs", program);
+  std::filesystem::copy_file(test::in_build("/erbs"), program);
   std::vector<std::string> words = study.words(
       "vary = { list{ { how = 1, h = 1 }, { how = 0, h = 2 }, { how = 0, h = 3 } } }, collect = { 'metrics.double' }, "
       "max_wall = '2s'",
@@ -101,7 +102,7 @@ TEST_CASE("a program that is replaced while its sweep is under way ends the swee
 }
 
 TEST_CASE("a figure of two params shows lines, or a map where that reads better", "[sweep]") {
-  Study study;
+  FolderStudy study;
   const std::string common = "vary = grid{ h = { 1, 2, 3, 4 }, k = { 10, 20, 30 } }, collect = { 'metrics.double' }, ";
   REQUIRE(study.sweep(common) == 0);
   for (const char* words : {"h [m]", "double [m]", "k 10 Pa", "k 30 Pa"}) CHECK_THAT(study.figure(), Catch::Contains(words));
@@ -113,7 +114,7 @@ TEST_CASE("a figure of two params shows lines, or a map where that reads better"
 }
 
 TEST_CASE("a figure says what it leaves out, and shows twins about their mean", "[sweep]") {
-  Study study;
+  FolderStudy study;
   REQUIRE(study.sweep("vary = grid{ h = { 1, 2, 3 }, how = { 0, 2 } }, collect = { 'metrics.double' }") == 0);
   CHECK_THAT(study.figure(), Catch::Contains("how 2: 3 of 3 without an answer") && Catch::Contains("how 0"));
   std::string many;

@@ -9,7 +9,7 @@
 #include <thread>
 
 #include "engine/record/format/csv.h"
-#include "tests/unit/lua/bench.h"
+#include "tests/unit/lua/commands/study_bench.h"
 
 using namespace erbs;
 using namespace erbs::lua;
@@ -17,7 +17,7 @@ using namespace erbs::lua;
 namespace {
 
 // A block that flies for two milliseconds. trouble: 1 error, 2 NaN, 3 no memory, 4 no end
-const std::string tiny = R"(
+const std::string troubled_block = R"(
 local h, trouble = param("h", 1, "height [m]"), param("trouble", 0)
 local motion = param("motion", "a.csv")
 material{ name = "stone", density = 2000 }
@@ -29,14 +29,8 @@ metric("double", "m", function(run) if trouble == 2 then return 0 / 0 end return
 metric("tall", "", function() return h > 1.37 and 1 or 0 end)
 )";
 
-struct Study : Bench {
-  Study() { write("tiny.lua", tiny); }
-  int sweep(const std::string& study, const std::vector<std::string>& more = {}, const std::string& directory = "") {
-    write("study.lua", study);
-    std::vector<std::string> words{"sweep", (folder / "study.lua").string(), "-o", directory.empty() ? out() : directory};
-    words.insert(words.end(), more.begin(), more.end());
-    return erbs(words);
-  }
+struct SweepStudy : test::StudyBench {
+  SweepStudy() : StudyBench(troubled_block) {}
   std::string results(const std::string& directory = "") const { return text_of((directory.empty() ? out() : directory) + "/results.csv"); }
   CsvTable table() const { return read_csv(out() + "/results.csv"); }
 };
@@ -50,7 +44,7 @@ const std::string threshold =
 }  // namespace
 
 TEST_CASE("a sweep gives a row for each point, the same for any number of runs at once", "[sweep]") {
-  Study study;
+  SweepStudy study;
   REQUIRE(study.sweep(grid, {"-j", "1"}) == 0);
   const CsvTable table = study.table();
   REQUIRE(table.rows() == 20);
@@ -73,7 +67,7 @@ TEST_CASE("a sweep gives a row for each point, the same for any number of runs a
 }
 
 TEST_CASE("a sweep finds a threshold at each point to the width asked for", "[sweep]") {
-  Study study;
+  SweepStudy study;
   for (const char* points : {"1", "3"}) {
     std::string text = threshold;
     text.replace(text.find("points = 1"), 10, std::string("points = ") + points);
@@ -95,7 +89,7 @@ TEST_CASE("a sweep finds a threshold at each point to the width asked for", "[sw
 TEST_CASE("a sweep that is killed at random moments loses nothing", "[sweep]") {
   std::mt19937 random(7);
   for (const std::string& text : {grid, threshold}) {
-    Study study;
+    SweepStudy study;
     const std::string whole = (study.folder / "whole").string();
     REQUIRE(study.sweep(text, {"-j", "2"}, whole) == 0);
     const std::vector<std::string> words =
@@ -120,7 +114,7 @@ TEST_CASE("a sweep that is killed at random moments loses nothing", "[sweep]") {
 }
 
 TEST_CASE("a run that fails is a row with its reason, and the others go on", "[sweep]") {
-  Study study;
+  SweepStudy study;
   REQUIRE(study.sweep("study{ scene = 'tiny.lua', vary = { grid{ trouble = { 0, 1, 2, 3, 4 } } }, collect = { 'metrics.double' }, "
                       "max_wall = '1.5s', memory = '90MB' }",
                       {"-j", "2"}) == 1);
@@ -146,7 +140,7 @@ TEST_CASE("a run that fails is a row with its reason, and the others go on", "[s
 }
 
 TEST_CASE("a run that diverges is a row", "[sweep]") {
-  Study study;
+  SweepStudy study;
   // A chain of two cubes on springs; past its limit of the time step it diverges from 1e-9 m (scenes/verify/v19_past_the_limit.lua).
   study.write("spring.lua", R"(
 local excess, kn, edge = param("excess", .5, "of the limit"), 1e9, .1
@@ -170,7 +164,7 @@ analysis{ duration = 5000 * limit, dt = { excess * limit, unstable = true }, sta
 }
 
 TEST_CASE("a bracket whose ends agree is a row that says what to change", "[sweep]") {
-  Study study;
+  SweepStudy study;
   const auto reason = [&](const std::string& ends) {
     CHECK(study.sweep("study{ scene = 'tiny.lua', bisect = { param = 'h', " + ends + ", key = 'metrics.tall' } }", {"--force"}) == 1);
     const CsvTable table = study.table();
@@ -225,7 +219,7 @@ TEST_CASE("mistakes of a study are refused with line and remedy, before any run"
        "'tiny.lua', vary = grid{ h = { 1 } }" +
            collect,
        "makes no blocks"}};
-  Study study;
+  SweepStudy study;
   for (const auto& [text, wanted] : cases) {
     INFO(text);
     CHECK(study.sweep(text) == 2);
@@ -245,22 +239,22 @@ TEST_CASE("mistakes of a study are refused with line and remedy, before any run"
 }
 
 TEST_CASE("a folder is taken up by its own study only", "[sweep]") {
-  Study study;
+  SweepStudy study;
   REQUIRE(study.sweep(grid) == 0);
   CHECK(study.sweep(grid) == 2);
   CHECK_THAT(study.said, Catch::Contains("--resume") && Catch::Contains("--force"));
   CHECK(study.sweep(threshold, {"--resume"}) == 2);
   CHECK_THAT(study.said, Catch::Contains("another study") && Catch::Contains("-o DIR"));
-  study.write("tiny.lua", tiny + "-- changed\n");
+  study.write("tiny.lua", troubled_block + "-- changed\n");
   CHECK(study.sweep(grid, {"--resume"}) == 2);
   CHECK_THAT(study.said, Catch::Contains("the scene, or a file that it reads, has changed"));
-  study.write("tiny.lua", tiny);
+  study.write("tiny.lua", troubled_block);
   CHECK(study.sweep(grid + "-- another limit of time is the same study\n", {"--resume"}) == 0);
   // a results file alone, from elsewhere
   const std::string other = (study.folder / "other").string();
   std::filesystem::create_directories(other);
   std::filesystem::copy_file(study.out() + "/results.csv", other + "/results.csv");
-  study.write("tiny.lua", tiny + "-- changed\n");
+  study.write("tiny.lua", troubled_block + "-- changed\n");
   CHECK(study.sweep(grid, {"--resume"}, other) == 2);
   CHECK_THAT(study.said, Catch::Contains("of another study"));
   // a folder of something else
@@ -270,10 +264,11 @@ TEST_CASE("a folder is taken up by its own study only", "[sweep]") {
 }
 
 TEST_CASE("records vary by their files and peaks, and a study has params of its own", "[sweep]") {
-  Study study;
+  SweepStudy study;
   for (const char* name : {"a.csv", "b.csv"}) study.write(name, "0,0\n0.01,1\n0.02,0\n");
   study.write("tiny.lua",
-              tiny + "ground_motion{ wave = record{ file = motion, unit = 'm/s2', peak = param('pga', 1, '[m/s2]') }, direction = 'x' }\n");
+              troubled_block +
+                  "ground_motion{ wave = record{ file = motion, unit = 'm/s2', peak = param('pga', 1, '[m/s2]') }, direction = 'x' }\n");
   const std::string text =
       "study{ scene = 'tiny.lua', vary = records{ param = 'motion', files = { 'a.csv', 'b.csv' }, scale = 'pga', scales = { param('low', "
       ".1) "
@@ -293,7 +288,7 @@ TEST_CASE("records vary by their files and peaks, and a study has params of its 
 }
 
 TEST_CASE("what stays of each run is as the study asks", "[sweep]") {
-  Study study;
+  SweepStudy study;
   for (const auto& [keep, folder, metrics] : {std::tuple{"none", false, false}, {"metrics", false, true}, {"all", true, false}}) {
     REQUIRE(study.sweep(
                 fmt::format("study{{ scene = 'tiny.lua', vary = grid{{ h = {{ 1 }} }}, collect = 'metrics.double', keep = '{}' }}", keep),
@@ -304,7 +299,7 @@ TEST_CASE("what stays of each run is as the study asks", "[sweep]") {
 }
 
 TEST_CASE("the ranks of mpirun share a study, and so do the tasks of a job array", "[sweep]") {
-  Study study;
+  SweepStudy study;
   const std::string alone = (study.folder / "alone").string();
   REQUIRE(study.sweep(grid, {"-j", "1"}, alone) == 0);
   SECTION("mpirun") {
@@ -354,7 +349,7 @@ TEST_CASE("the ranks of mpirun share a study, and so do the tasks of a job array
 }
 
 TEST_CASE("a sweep's figure has the labels it is given, and a file for each value of split", "[sweep]") {
-  Study study;
+  SweepStudy study;
   const std::string common =
       "study{ scene = 'tiny.lua', vary = grid{ h = { 1, 2, 3 }, trouble = { 10, 11 } }, collect = { 'metrics.double' }, ";
   REQUIRE(study.sweep(common + "x = 'height [m]', y = 'twice the height [m]', split = 'trouble' }") == 0);
@@ -372,7 +367,7 @@ TEST_CASE("a sweep's figure has the labels it is given, and a file for each valu
 }
 
 TEST_CASE("a param that is a word takes it without quotes, and one that is a number does not", "[sweep]") {
-  Study study;
+  SweepStudy study;
   study.write("b.csv", "0,0\n0.01,1\n");
   const auto run = [&](const std::string& option) { return study.erbs({"check", (study.folder / "tiny.lua").string(), "-D", option}); };
   for (const char* option : {"motion=b.csv", "motion='b.csv'", "motion=\"b.csv\""}) CHECK(run(option) == 0);

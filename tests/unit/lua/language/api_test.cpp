@@ -172,16 +172,18 @@ TEST_CASE("a wrong number among the points of a wave is one mistake, not two", "
 }
 
 TEST_CASE("a function that is sampled too coarsely is told", "[lua]") {
-  const auto notes = [](const std::string& wave) { return scene_of("force{ block = 'b', direction = 'z', wave = " + wave + " }").notes; };
+  const auto warned = [](const std::string& wave) {
+    return warnings(scene_of("force{ block = 'b', direction = 'z', wave = " + wave + " }"));
+  };
   const std::string sine = "function(t) return math.sin(2 * pi * 20 * t) end";
-  const auto told = notes(sine + ", sample = .05");  // one sample a period: nothing is left of it
+  const auto told = warned(sine + ", sample = .05");  // one sample a period: nothing is left of it
   REQUIRE(told.size() == 1);
-  CHECK(mentions(told, "warning: scene.lua:6: between its samples, 0.05 s apart"));
+  CHECK(mentions(told, "scene.lua:6: between its samples, 0.05 s apart"));
   CHECK(mentions(told, "sample = 0.005"));
-  CHECK(notes(sine + ", sample = .01").size() == 1);
-  CHECK(notes(sine).empty());
-  CHECK(notes("function(t) return t < .5 and 1 or 0 end").empty());
-  CHECK(notes("function(t) return 3 end, sample = .5").empty());
+  CHECK(warned(sine + ", sample = .01").size() == 1);
+  CHECK(warned(sine).empty());
+  CHECK(warned("function(t) return t < .5 and 1 or 0 end").empty());
+  CHECK(warned("function(t) return 3 end, sample = .5").empty());
 }
 
 TEST_CASE("a smooth curve that swings beyond its values is told", "[lua]") {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 
+#include "tests/support/places.h"
 #include "tests/unit/lua/bench.h"
 
 using namespace erbs;
@@ -28,14 +29,14 @@ std::vector<std::string> lines_of(const std::string& text) {
   return lines;
 }
 
-struct Bad {
+struct BadPiece {
   std::string piece;               // in line 7 of the scene
   std::vector<std::string> parts;  // parts of the one message: place, name and remedy
 };
 
-void refuses(Bench& bench, const Bad& bad) {
+void refuses(Bench& bench, const BadPiece& bad) {
   INFO(bad.piece);
-  CHECK(bench.run(pier + bad.piece, {"--allow", ERBS_SOURCE_DIR "/scenes/records"}) == 2);
+  CHECK(bench.run(pier + bad.piece, {"--allow", test::in_source("/scenes/records")}) == 2);
   INFO(bench.said);
   CHECK(lines_of(bench.said).size() == 1);
   for (const auto& part : bad.parts) {
@@ -62,7 +63,7 @@ TEST_CASE("a recorder of joints takes the group on their other side", "[bad_inpu
 TEST_CASE("what a scene says wrong is one message with its place and remedy", "[bad_input]") {
   Bench bench;
   const std::string at = "scene.lua:7: ";
-  const Bad list[] = {
+  const BadPiece list[] = {
       {"box{ size = {1, 1, 1}", {"scene.lua:", "'}' expected"}},
       {"boxx{ size = {1, 1, 1} }", {at, "unknown name \"boxx\"; did you mean \"box\"?"}},
       {"box{ sise = {1, 1, 1}, at = {5, 5, 5}, free = true }", {at, "box: unknown key \"sise\"; did you mean \"size\"?"}},
@@ -141,7 +142,7 @@ TEST_CASE("what a scene says wrong is one message with its place and remedy", "[
       {"wall{ lenth = 3, joint = .01, courses = 2, brick = { length = .3, width = .1, height = .1 }, length = 2 }",
        {at, "unknown key \"lenth\"; did you mean \"length\"?"}},
   };
-  for (const Bad& bad : list) refuses(bench, bad);
+  for (const BadPiece& bad : list) refuses(bench, bad);
 }
 
 TEST_CASE("a record that cannot be read names the scene's line and the file's", "[bad_input]") {
@@ -152,7 +153,7 @@ TEST_CASE("a record that cannot be read names the scene's line and the file's", 
   bench.write("nan.txt", "0.1\nnan\n");
   bench.write("short.at2", "PEER\nX\nACCELERATION IN UNITS OF G\nNPTS= 10, DT= .01 SEC\n.1 .2 .3\n");
   const auto wave = [](const std::string& keys) { return "ground_motion{ wave = record{ file = " + keys + " }, direction = 'x' }"; };
-  const Bad list[] = {
+  const BadPiece list[] = {
       {wave("'nope.csv'"), {"scene.lua:7: ", "\"nope.csv\" is not there; looked for", "put the file beside the scene"}},
       {wave("'empty.csv', unit = 'g'"), {"scene.lua:7: record: ", "empty.csv: the record file is empty; give a file with numbers"}},
       {wave("'names.csv'"), {"scene.lua:7: record: ", "names.csv: ", "holds no numbers"}},
@@ -161,7 +162,7 @@ TEST_CASE("a record that cannot be read names the scene's line and the file's", 
       {wave("'short.at2'"), {"scene.lua:7: record: ", "short.at2:4: NPTS promises 10 values, the file holds 3"}},
       {wave("'letter.csv'"), {"scene.lua:7: record: ", "letter.csv:"}},
   };
-  for (const Bad& bad : list) refuses(bench, bad);
+  for (const BadPiece& bad : list) refuses(bench, bad);
 }
 
 TEST_CASE("a mesh that is no solid is refused", "[bad_input]") {

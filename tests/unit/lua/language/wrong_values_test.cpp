@@ -151,11 +151,12 @@ std::string with(const std::string& name, const std::string& key, const std::str
   return call_of(name, words);
 }
 
-struct Bad {
+struct BadCall {
   std::string call, about;  // about: required in the message; "" if a wrong table has a message of its own
 };
 
-void add_wrong(std::vector<Bad>& all, const std::string& name, const Key& key, const std::function<std::string(const std::string&)>& say) {
+void add_wrong(std::vector<BadCall>& all, const std::string& name, const Key& key,
+               const std::function<std::string(const std::string&)>& say) {
   std::vector<std::string> values;
   if (const auto found = wrong_of_type.find(key.type); found != wrong_of_type.end()) values = found->second;
   if (key.type == "number" || key.type == "integer")
@@ -172,8 +173,8 @@ void add_wrong(std::vector<Bad>& all, const std::string& name, const Key& key, c
     });
 }
 
-std::vector<Bad> all_bad() {
-  std::vector<Bad> all;
+std::vector<BadCall> all_bad() {
+  std::vector<BadCall> all;
   for (const Function& function : all_functions()) {
     if (!takes_table(function) || function.name == "gravity") continue;
     const std::string& name = function.name;
@@ -280,7 +281,7 @@ TEST_CASE("every key of every function, wrong in each way, is refused with its p
   const Beside beside;
   const auto all = all_bad();
   CHECK(all.size() > 2000);
-  for (const Bad& bad : all) {
+  for (const BadCall& bad : all) {
     const auto mistakes = mistakes_at(beside.bench.folder.string(), bad.call);
     INFO(bad.call << "\n" << fmt::format("{}", fmt::join(mistakes, "\n")));
     CHECK(mentions(mistakes, "/scene.lua:7: "));

@@ -7,6 +7,7 @@
 #include "engine/geometry/mass.h"
 #include "engine/model/build/build.h"
 #include "lua/language/script.h"
+#include "tests/support/places.h"
 
 using namespace erbs;
 using namespace erbs::lua;
@@ -39,7 +40,7 @@ std::vector<Brick> built(const std::string& text) {
                        "t.lua"));
 }
 
-std::vector<std::string> mistakes_of(const std::string& text) {
+std::vector<std::string> mistakes_in_masonry(const std::string& text) {
   try {
     built(text);
   } catch (const Errors& errors) { return errors.messages; }
@@ -284,7 +285,8 @@ print(#w.top, w.top[1], #w.storey_top[1]) param("wall_volume", w.volume)
 }
 
 TEST_CASE("mistakes in masonry are named with line and remedy, all at once", "[lua][masonry]") {
-  const auto some = mistakes_of("wall{ lenght = 2, courses = 3,\n  brick = {length = 0.3, width = 0.125, height = -0.1}, joint = 5*mm }");
+  const auto some =
+      mistakes_in_masonry("wall{ lenght = 2, courses = 3,\n  brick = {length = 0.3, width = 0.125, height = -0.1}, joint = 5*mm }");
   REQUIRE(some.size() == 2);
   const auto said = [&](const std::string& words) {
     return std::any_of(some.begin(), some.end(),
@@ -295,17 +297,17 @@ TEST_CASE("mistakes in masonry are named with line and remedy, all at once", "[l
 
   const std::string walls =
       "building{ plan = {1.525, 1.83}, courses = 13, joint = 5*mm, brick = {length = 0.3, width = 0.125, height = 0.1}, openings = {";
-  const auto near_corner = mistakes_of(walls + "{wall = 'south', at = 0.1, width = 0.4, height = 0.5}} }");
+  const auto near_corner = mistakes_in_masonry(walls + "{wall = 'south', at = 0.1, width = 0.4, height = 0.5}} }");
   REQUIRE(near_corner.size() == 1);
   CHECK(near_corner[0].find("allowed: 170 mm to 1355 mm") != std::string::npos);
-  const auto no_wall = mistakes_of(walls + "{wall = 'suoth', at = 0.5, width = 0.4, height = 0.5}} }");
+  const auto no_wall = mistakes_in_masonry(walls + "{wall = 'suoth', at = 0.5, width = 0.4, height = 0.5}} }");
   REQUIRE(no_wall.size() == 1);
   CHECK(no_wall[0].find("did you mean \"south\"?") != std::string::npos);
-  CHECK(mistakes_of(walls + "{wall = 'south', at = 0.5, width = 0.4, height = 5}} }").size() == 1);
+  CHECK(mistakes_in_masonry(walls + "{wall = 'south', at = 0.5, width = 0.4, height = 5}} }").size() == 1);
 }
 
 TEST_CASE("mistakes after bad masonry are told as well, and nothing that only follows from it", "[lua][masonry]") {
-  const auto mistakes = mistakes_of(
+  const auto mistakes = mistakes_in_masonry(
       "local house = building{ plan = {1.5, 1.8}, courses = 3, joint = 5*mm, brick = {lenth = 0.3, width = 0.125, heigth = 0.1} }\n"
       "recorder{ name = 'top', quantity = 'displacement', block = house.slabs[3] }\n"
       "analysis{ durration = 1 }\n"
@@ -319,7 +321,7 @@ TEST_CASE("mistakes after bad masonry are told as well, and nothing that only fo
 
 TEST_CASE("the house of the shaking table has the blocks it should", "[lua][masonry]") {
   Script script({.seconds = 100, .quiet = true});
-  const Scene& scene = script.load(ERBS_SOURCE_DIR "/scenes/shake_table_house.lua");
+  const Scene& scene = script.load(test::in_source("/scenes/shake_table_house.lua"));
   const auto bricks = bricks_of(scene);
   CHECK(bricks.size() >= 750);
   CHECK(bricks.size() <= 900);
@@ -333,7 +335,7 @@ TEST_CASE("the house of the shaking table has the blocks it should", "[lua][maso
 TEST_CASE("the aqueduct of Valens has the size and the number of blocks of its source", "[lua][masonry]") {
   for (const auto& [model, length, blocks] : {std::tuple{"1", 102., 16920.}, std::tuple{"2", 195., 29695.}}) {
     Script script({.seconds = 100, .quiet = true});
-    const Scene& scene = script.load(ERBS_SOURCE_DIR "/scenes/valens_aqueduct.lua", {{"model", model}});
+    const Scene& scene = script.load(test::in_source("/scenes/valens_aqueduct.lua"), {{"model", model}});
     Vec3 low = Vec3::Constant(1e9), high = -low;
     double count = 0;
     for (const Block& block : scene.blocks) {
@@ -349,14 +351,14 @@ TEST_CASE("the aqueduct of Valens has the size and the number of blocks of its s
 
 TEST_CASE("a pier of the aqueduct stands between its planes of symmetry without gaps", "[lua][masonry]") {
   Script script({.seconds = 100, .quiet = true});
-  const Built one = build(script.load(ERBS_SOURCE_DIR "/scenes/valens_aqueduct.lua", {{"bays", "1"}}));
+  const Built one = build(script.load(test::in_source("/scenes/valens_aqueduct.lua"), {{"bays", "1"}}));
   CHECK(one.warnings.empty());
   for (const Joint& joint : one.model.joint) CHECK(std::abs(joint.gap) < 1e-9);
 }
 
 TEST_CASE("the METU house has the size and the roof of its source", "[lua][masonry]") {
   Script script({.seconds = 100, .quiet = true});
-  const Scene& scene = script.load(ERBS_SOURCE_DIR "/scenes/metu_house.lua");
+  const Scene& scene = script.load(test::in_source("/scenes/metu_house.lua"));
   Vec3 low = Vec3::Constant(1e9), high = -low;
   double roof = 0;
   for (const Block& block : scene.blocks) {

@@ -2,6 +2,7 @@
 #include <catch2/catch.hpp>
 
 #include "lua/reports/book.h"
+#include "tests/support/places.h"
 #include "tests/unit/lua/bench.h"
 
 using namespace erbs;
@@ -22,7 +23,7 @@ const std::string good = "-- Round-off only.\nexpect('metrics.fall', 0.5 * g * 0
 }  // namespace
 
 TEST_CASE("README's line is the summary of the book", "[lua]") {
-  const std::string book = text_of(ERBS_SOURCE_DIR "/tests/README.md"), readme = text_of(ERBS_SOURCE_DIR "/README.md");
+  const std::string book = text_of(test::in_source("/tests/README.md")), readme = text_of(test::in_source("/README.md"));
   const size_t from = book.find("\n**"), to = book.find("**\n", from + 3);
   REQUIRE(to != std::string::npos);
   CHECK(contains(readme, book.substr(from + 3, to - from - 3)));

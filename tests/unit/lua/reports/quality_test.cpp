@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "lua/reading/quality.h"
+#include "tests/support/places.h"
 #include "tests/unit/lua/bench.h"
 
 using namespace erbs;
@@ -21,7 +22,7 @@ struct Answer {
 Answer answer(Bench& bench, const std::string& scene, double dt_fraction, int side, const std::string& metric,
               std::vector<std::string> more) {
   std::vector<std::string> words{"run",
-                                 ERBS_SOURCE_DIR "/scenes/" + scene,
+                                 test::in_source("/scenes/") + scene,
                                  "-o",
                                  bench.out(),
                                  "--force",

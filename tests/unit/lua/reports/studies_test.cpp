@@ -3,15 +3,13 @@
 
 #include <catch2/catch.hpp>
 #include <filesystem>
-#include <fstream>
 #include <set>
 
 #include "engine/base/system/process.h"
 #include "engine/record/format/csv.h"
 #include "engine/record/format/json.h"
 #include "lua/reading/family.h"
-#include "tests/support/folder.h"
-#include "tests/unit/lua/load.h"
+#include "tests/unit/lua/bench.h"
 
 using namespace erbs;
 using namespace erbs::lua;
@@ -19,20 +17,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-struct Bench {
-  test::Folder own;
-  fs::path folder = own.path;
-  std::string said;
-  std::string out() const { return (folder / "out").string(); }
-  int run(const std::string& text, const std::vector<std::string>& more = {}) {
-    std::ofstream(folder / "scene.lua") << text;
-    std::vector<std::string> words{ERBS_BINARY_DIR "/erbs", "run", (folder / "scene.lua").string(), "-o", out()};
-    words.insert(words.end(), more.begin(), more.end());
-    const int code = wait_for(start(words, (folder / "log").string()));
-    std::ifstream stream(folder / "log");
-    said = {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-    return code;
-  }
+struct StudyRun : Bench {
   double metric(const std::string& name) const {
     const Json metrics = read_json(out() + "/metrics.json");
     const Json* value = find_key(metrics, "metrics." + name);
@@ -58,7 +43,7 @@ bisect { param = "slope", lo = 0.1, hi = 1, rel = 0.01,
 }  // namespace
 
 TEST_CASE("a block slides where the slope is mu, found by bisection of the scene's own runs", "[lua][study]") {
-  Bench bench;
+  StudyRun bench;
   REQUIRE(bench.run(slope + "expect('metrics.collapse_slope', 0.35, { rel = 0.01 })", {"-D", "mu=0.35"}) == 0);
   CHECK(bench.metric("collapse_slope") == Approx(0.35).epsilon(0.01));
   const CsvTable table = read_csv(bench.out() + "/studies/collapse_slope.csv");
@@ -68,7 +53,7 @@ TEST_CASE("a block slides where the slope is mu, found by bisection of the scene
 }
 
 TEST_CASE("a finished run of a study is not run again, unless the scene has changed", "[lua][study]") {
-  Bench bench;
+  StudyRun bench;
   REQUIRE(bench.run(slope) == 0);
   const double found = bench.metric("collapse_slope");
   const std::string study = bench.out() + "/studies/collapse_slope/";
@@ -84,7 +69,7 @@ TEST_CASE("a finished run of a study is not run again, unless the scene has chan
 }
 
 TEST_CASE("a run of a study that fails is a row with its reason, and the others count", "[lua][study]") {
-  Bench bench;
+  StudyRun bench;
   const std::string scene = R"(
     local seed = param("seed", 1)
     local x = seed / 2^31
@@ -122,7 +107,7 @@ TEST_CASE("a run of a study that fails is a row with its reason, and the others 
 }
 
 TEST_CASE("studies of a scene give the same for any number of runs at once, and end runs that take too long", "[lua][study]") {
-  Bench bench;
+  StudyRun bench;
   const std::string scene = slope + R"(
     converge { param = "mu", values = { .4, .2, .1 }, error = function(run) return run.last("block_ux_rel_m") + .1 end }
     local seed = param("seed", 1)
@@ -153,7 +138,7 @@ TEST_CASE("studies of a scene give the same for any number of runs at once, and 
 }
 
 TEST_CASE("an oscillator's error falls with the square of its step", "[lua][study]") {
-  Bench bench;
+  StudyRun bench;
   REQUIRE(bench.run(R"(
     local share = param("share", 0.2)
     gravity(0)
@@ -173,7 +158,7 @@ TEST_CASE("an oscillator's error falls with the square of its step", "[lua][stud
 }
 
 TEST_CASE("a run whose bisection finds no bracket does not end as if it had an answer", "[lua][study]") {
-  Bench bench;
+  StudyRun bench;
   CHECK(bench.run(slope, {"-D", "mu=2", "--no-figures"}) == 2);
   INFO(bench.said);
   CHECK(bench.said.find("the verdict is no at hi = 1 still; raise it") != std::string::npos);

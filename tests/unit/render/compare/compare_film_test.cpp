@@ -7,6 +7,7 @@
 #include "render/compare/films.h"
 #include "render/image/measures.h"
 #include "render/movie/film_reader.h"
+#include "tests/support/places.h"
 #include "tests/unit/lua/bench.h"
 
 using namespace erbs;
@@ -28,11 +29,11 @@ Image square(int x, int y) {
 struct Films {
   lua::Bench bench;
   std::string run = (bench.folder / "pier").string();
-  Films() { REQUIRE(bench.erbs({"run", ERBS_SOURCE_DIR "/scenes/first.lua", "-o", run, "-q", "--no-figures"}) == 0); }
+  Films() { REQUIRE(bench.erbs({"run", test::in_source("/scenes/first.lua"), "-o", run, "-q", "--no-figures"}) == 0); }
   // A film of the run from `from` s on.
   std::string film(double from, const std::string& fps, const std::string& size, const char* overlay = "--no-overlay",
                    const std::string& slow = "1") const {
-    const std::string renderer = ERBS_BINARY_DIR "/erbs-render", span = std::to_string(from) + ":1.7";
+    const std::string renderer = test::in_build("/erbs-render"), span = std::to_string(from) + ":1.7";
     std::vector<std::string> words{renderer, run,      "--size", size,           "--fps", fps,      "--time",
                                    span,     "--slow", slow,     "--no-figures", "-q",    "--force"};
     if (*overlay) words.emplace_back(overlay);
@@ -96,7 +97,7 @@ TEST_CASE("a run with another peak is told apart from noise of H.264", "[render]
   const std::string film = films.film(0, "25", "256x192"), coarse = (films.bench.folder / "coarse.mp4").string();
   REQUIRE(wait_for(start({"ffmpeg", "-y", "-loglevel", "error", "-i", film, "-c:v", "libx264", "-crf", "28", coarse})) == 0);
   const std::string stronger = (films.bench.folder / "stronger").string(), place = (films.bench.folder / "of_").string();
-  REQUIRE(films.bench.erbs({"run", ERBS_SOURCE_DIR "/scenes/first.lua", "-D", "shake=0.42*g", "-o", stronger, "-q", "--no-figures"}) == 0);
+  REQUIRE(films.bench.erbs({"run", test::in_source("/scenes/first.lua"), "-D", "shake=0.42*g", "-o", stronger, "-q", "--no-figures"}) == 0);
   const std::vector<std::string> how{"--film-background", "drawn", "--expect", "iou>.9"};
   std::vector<std::string> same{"compare", films.run, coarse, "-o", place + "same"},
       other{"compare", stronger, coarse, "-o", place + "other"};
@@ -147,7 +148,7 @@ TEST_CASE("a camera inside a block compares nothing", "[render][compare][program
 
 TEST_CASE("figures of a comparison do not depend on the number of threads", "[render][compare][program]") {
   Films films;
-  const std::string film = films.film(0, "25", "256x192"), renderer = ERBS_BINARY_DIR "/erbs-render";
+  const std::string film = films.film(0, "25", "256x192"), renderer = test::in_build("/erbs-render");
   std::vector<Json> found;
   for (const std::string threads : {"1", "3"}) {
     const std::string place = (films.bench.folder / ("by" + threads)).string();

@@ -15,6 +15,7 @@
 #include "render/movie/video.h"
 #include "render/run/framing.h"
 #include "tests/support/folder.h"
+#include "tests/support/places.h"
 #include "tests/unit/render/brick_house.h"
 
 using namespace erbs;
@@ -64,7 +65,7 @@ TEST_CASE("three frames look as they did, from any number of threads", "[render]
   for (std::size_t i = 0; i < names.size(); ++i) {
     INFO(names[i]);
     CHECK(bytes_of(dir.path / "frames" / names[i]) == first[i]);
-    const fs::path stored = fs::path(ERBS_SOURCE_DIR) / "tests/image" / ("brick_house_" + names[i]);
+    const fs::path stored = fs::path(test::in_source("")) / "tests/image" / ("brick_house_" + names[i]);
     // ERBS_WRITE_IMAGES=1 replaces the stored pictures; look at them before a commit.
     if (std::getenv("ERBS_WRITE_IMAGES")) fs::copy_file(dir.path / "frames" / names[i], stored, fs::copy_options::overwrite_existing);
     const Difference d = compare(read_png((dir.path / "frames" / names[i]).string()), read_png(stored.string()));
