@@ -75,6 +75,8 @@ Metrics::Equilibrium equilibrium_metrics(const Prepared& p) {
 
 void start_at_rest(const Scene& scene, Prepared& p, int threads, const StartTold& told) {
   const auto began = std::chrono::steady_clock::now();
+  const Vec3 upright = p.model.gravity;  // a table may be tilted from the start
+  for (const auto& tilt : p.model.tilts) p.model.gravity = rotation(value(tilt.wave, 0) * tilt.axis) * p.model.gravity;
   if (scene.analysis.start == "equilibrium" && starts_loaded(p.model) && p.model.njoint > 0) {
     Resting resting(p.model, p.state);
     std::optional<State> built;
@@ -91,6 +93,7 @@ void start_at_rest(const Scene& scene, Prepared& p, int threads, const StartTold
   } else if (scene.analysis.start == "ramp" && p.model.njoint > 0) {
     p.fallers = ramp_gravity(scene, p, {}, threads, false, told);
   }
+  p.model.gravity = upright;
   p.equilibrium_wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
   warn_of_fallers(p);
   update_all_references(p.model, p.state);

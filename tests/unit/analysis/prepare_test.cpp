@@ -183,3 +183,23 @@ TEST_CASE("loads that begin after the run, and supports that jump, are told", "[
   CHECK_FALSE(told(motion("function(t) return 0.02 * t ^ 2 end"), "motion"));
   CHECK_FALSE(told(motion("curve_wave{ times = { 0, 1 }, values = { 0, 0.02 }, hold = true }"), "motion"));
 }
+
+TEST_CASE("a wall on a table that is tilted from the start is at rest on it", "[analysis]") {
+  for (const char* start : {"equilibrium", "ramp"}) {
+    CAPTURE(start);
+    const Scene scene = test::small_wall(std::string("tilt{ axis = 'x', wave = function() return -0.05 end } analysis{duration=1, start='") + start + "'}");
+    Prepared run = prepare(scene, false);
+    start_at_rest(scene, run, 1);
+    const BlockVec3 start_u = run.state.pose.u;
+    double leans = 0, moves = 0;
+    Solver solver(run.model, run.state, run.range, 1);
+    solver.advance_until([&] { return run.state.time.t >= 0.05; });
+    for (std::size_t b = 0; b < start_u.size(); ++b) {
+      leans = std::max(leans, std::hypot(start_u[b].x(), start_u[b].y()));
+      moves = std::max(moves, (run.state.pose.u[b] - start_u[b]).norm());
+    }
+    CHECK(leans > 1e-8);
+    CHECK(moves < 0.01 * leans);
+    CHECK(run.model.gravity.x() == 0);
+  }
+}
