@@ -8,6 +8,7 @@
 
 #include "engine/record/folder/run_folder.h"
 #include "engine/record/format/csv.h"
+#include "engine/record/format/json.h"
 #include "engine/record/plot/figure.h"
 #include "engine/record/plot/gnuplot.h"
 #include "engine/record/results/metrics.h"
@@ -84,8 +85,7 @@ std::vector<LeftFigure> figures_of(const std::string& directory) {
   if (!fs::is_directory(folder)) return found;
   for (const auto& entry : fs::directory_iterator(folder)) {
     if (entry.path().extension() != ".gnuplot") continue;
-    std::ifstream stream(entry.path(), std::ios::binary);
-    const std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+    const std::string text = whole_text(entry.path());
     found.push_back({entry.path().stem().string(), title_in(text), text});
   }
   std::sort(found.begin(), found.end(), [](const LeftFigure& a, const LeftFigure& b) { return a.name < b.name; });

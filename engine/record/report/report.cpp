@@ -11,6 +11,7 @@
 #include "engine/base/error.h"
 #include "engine/base/text.h"
 #include "engine/record/folder/run_folder.h"
+#include "engine/record/format/json.h"
 #include "engine/record/report/fill.h"
 #include "engine/record/report/pack.h"
 
@@ -141,8 +142,7 @@ ReportedRun read_reported_run(const std::string& dir) {
   take_events(table_of(dir, "events.csv"), out);
   if (fs::exists(run_file(dir, "curve.csv"))) {
     for (const char* name : {"curve.svg", "performance.svg"})
-      if (std::ifstream in(run_file(dir, name), std::ios::binary); in)
-        out.push_figures.emplace_back(name, std::string(std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()));
+      if (const std::string path = run_file(dir, name); fs::exists(path)) out.push_figures.emplace_back(name, whole_text(path));
     out.push_curve = table_of(dir, "curve.csv");
     out.push_answers = push_answers(out.metrics, out.push_curve.names.empty() ? "" : out.push_curve.names.front());
   }

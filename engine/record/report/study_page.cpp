@@ -12,6 +12,7 @@
 #include "engine/base/text.h"
 #include "engine/record/folder/manifest.h"
 #include "engine/record/folder/run_folder.h"
+#include "engine/record/format/json.h"
 #include "engine/record/plot/unit.h"
 #include "engine/record/report/fill.h"
 #include "engine/record/report/pack.h"
@@ -20,11 +21,6 @@ namespace erbs {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string bytes_of(const fs::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-}
 
 // Files of a folder with this ending, by name; none where there is no folder.
 std::vector<fs::path> files_with(const fs::path& folder, const std::string& ending) {
@@ -230,7 +226,7 @@ ReportedStudy read_reported_study(const std::string& dir, const std::string& pag
   else read_scene_studies(folder, page, study);
   const bool of_scene = study.kind == "studies of a scene";
   for (const fs::path& file : files_with(of_scene ? folder / "studies" : folder, ".svg"))
-    study.figures.push_back({file.filename().string(), bytes_of(file)});
+    study.figures.push_back({file.filename().string(), whole_text(file)});
   for (const char* name : {"results.csv", "runs.csv", "study.json", "accuracy.csv", "manifest.json", "metrics.json", "report.html"})
     if (fs::exists(folder / name) && fs::weakly_canonical(folder / name) != fs::weakly_canonical(page))
       study.files.push_back(way_to(folder / name, page));

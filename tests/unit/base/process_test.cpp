@@ -8,17 +8,11 @@
 
 #include "engine/base/error.h"
 #include "tests/support/folder.h"
+#include "tests/support/text_of.h"
 
 using namespace erbs;
 
-namespace {
-
-std::string text_of(const std::string& path) {
-  std::ifstream stream(path);
-  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-}
-
-}  // namespace
+namespace {}  // namespace
 
 TEST_CASE("a program reads what it is fed and writes into the files it is given", "[process]") {
   const test::Folder own;
@@ -27,10 +21,10 @@ TEST_CASE("a program reads what it is fed and writes into the files it is given"
                       {.output = out, .errors = errors, .folder = "/", .fed = true, .own_group = true});
   CHECK(send(child.to, "abc\n", 4));
   CHECK(finish(child) == 3);
-  CHECK(text_of(out) == "abc\n/\n");
-  CHECK(text_of(errors) == "trouble\n");
+  CHECK(test::text_of(out) == "abc\n/\n");
+  CHECK(test::text_of(errors) == "trouble\n");
   CHECK(wait_for(start({"sh", "-c", "echo one; echo two >&2"}, out)) == 0);
-  CHECK(text_of(out) == "one\ntwo\n");
+  CHECK(test::text_of(out) == "one\ntwo\n");
 }
 
 TEST_CASE("a program that dies or is absent says so", "[process]") {

@@ -9,16 +9,12 @@
 #include "engine/record/plot/gnuplot.h"
 #include "tests/support/folder.h"
 #include "tests/support/places.h"
+#include "tests/support/text_of.h"
 
 using namespace erbs;
 namespace fs = std::filesystem;
 
 namespace {
-
-std::string contents(const fs::path& path) {
-  std::ifstream in(path);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
 
 Record el_centro() {
   Record record;
@@ -34,7 +30,7 @@ TEST_CASE("a record is drawn whole, with its numbers in words", "[record]") {
   fs::create_directories(folder);
   const Record record = el_centro();
   write_record_plot(record, report(record), (folder / "record.svg").string());
-  const std::string svg = contents(folder / "record.svg");
+  const std::string svg = test::text_of(folder / "record.svg");
   CHECK(svg.find("</svg>") != std::string::npos);
   for (const char* text :
        {"elcentro_1940_ns.csv", "0.3188 g at 2.04 s", "0.3609 m/s at 1.58 s", "0.2120 m at 2.62 s", "0.945 g at 0.19 s"}) {

@@ -18,6 +18,7 @@
 #include "engine/study/sweep/ranks.h"
 #include "engine/study/sweep/shared_table.h"
 #include "tests/support/folder.h"
+#include "tests/support/text_of.h"
 
 using namespace erbs;
 using namespace erbs::study;
@@ -33,11 +34,6 @@ Axis axis(const std::string& param, const std::vector<double>& values, int group
 }
 
 double number(const Value& value) { return std::get<double>(value); }
-
-std::string text_of_file(const std::string& path) {
-  std::ifstream stream(path);
-  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-}
 
 std::vector<std::string> indices(SharedTable& table) {
   std::vector<std::string> out;
@@ -125,7 +121,7 @@ TEST_CASE("a table drops a torn last line, whoever opens or appends next", "[swe
   std::ofstream(path, std::ios::app) << "2,tor";
   CHECK(indices(table) == std::vector<std::string>{"1"});
   table.append({"3", "c"});  // another process was killed while it wrote
-  CHECK(text_of_file(path) == "index,value,study\n1,a,key\n3,c,key\n");
+  CHECK(test::text_of(path) == "index,value,study\n1,a,key\n3,c,key\n");
   std::ofstream(path, std::ios::app) << std::string(10000, 'x');
   SharedTable again(path, {"index", "value"}, "key");
   CHECK(indices(again) == std::vector<std::string>{"1", "3"});
@@ -147,7 +143,7 @@ TEST_CASE("a sorted table has each index once, and takes further lines", "[sweep
   for (const char* index : {"10", "2", "1", "2"}) table.append({index, "v, w"});
   CHECK(indices(other).size() == 4);
   CHECK(table.sort() == 3);
-  CHECK(text_of_file(own.file("t.csv")) == "index,value,study\n1,\"v, w\",key\n2,\"v, w\",key\n10,\"v, w\",key\n");
+  CHECK(test::text_of(own.file("t.csv")) == "index,value,study\n1,\"v, w\",key\n2,\"v, w\",key\n10,\"v, w\",key\n");
   other.append({"11", "x"});
   CHECK(indices(other) == std::vector<std::string>{"1", "2", "10", "11"});  // a new file: read from its beginning
 }
@@ -268,11 +264,11 @@ TEST_CASE("a run that takes too long is ended with all that it has started", "[s
   CHECK(ended.at(7).overdue);
   CHECK(ended.at(7).code == 128 + SIGKILL);
   CHECK(ended.at(7).wall < 5);
-  const int grandchild = std::stoi(text_of_file(own.file("pid")));
+  const int grandchild = std::stoi(test::text_of(own.file("pid")));
   for (int i = 0;
-       i < 200 && kill(grandchild, 0) == 0 && text_of_file(fmt::format("/proc/{}/stat", grandchild)).find(") Z") == std::string::npos; ++i)
+       i < 200 && kill(grandchild, 0) == 0 && test::text_of(fmt::format("/proc/{}/stat", grandchild)).find(") Z") == std::string::npos; ++i)
     usleep(10000);
-  CHECK((kill(grandchild, 0) != 0 || text_of_file(fmt::format("/proc/{}/stat", grandchild)).find(") Z") != std::string::npos));
+  CHECK((kill(grandchild, 0) != 0 || test::text_of(fmt::format("/proc/{}/stat", grandchild)).find(") Z") != std::string::npos));
 }
 
 TEST_CASE("a run beyond its memory gets no more, and its peak is known", "[sweep]") {

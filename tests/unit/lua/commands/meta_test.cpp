@@ -5,6 +5,7 @@
 #include "engine/scene/scene.h"
 #include "lua/commands/help.h"
 #include "tests/support/places.h"
+#include "tests/support/text_of.h"
 #include "tests/unit/lua/load.h"
 
 using namespace erbs;
@@ -12,10 +13,7 @@ using namespace erbs::lua;
 
 namespace {
 
-std::string editor_file_of_the_tree() {
-  std::ifstream stream(test::in_source("/lua/erbs.meta.lua"));
-  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-}
+std::string editor_file_of_the_tree() { return test::text_of(test::in_source("/lua/erbs.meta.lua")); }
 
 }  // namespace
 

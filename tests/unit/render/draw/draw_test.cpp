@@ -16,6 +16,7 @@
 #include "render/run/framing.h"
 #include "tests/support/folder.h"
 #include "tests/support/places.h"
+#include "tests/support/text_of.h"
 #include "tests/unit/render/brick_house.h"
 
 using namespace erbs;
@@ -25,11 +26,6 @@ namespace fs = std::filesystem;
 namespace {
 
 using test::Folder;
-
-std::string bytes_of(const fs::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-}
 
 const std::atomic<bool> go_on{false};
 
@@ -60,11 +56,11 @@ TEST_CASE("three frames look as they did, from any number of threads", "[render]
   const std::vector<std::string> names{"corner_t0.400s.png", "corner_t1.900s.png", "corner_t2.500s.png"};
   REQUIRE(make_movie(run, reader, stills({0.4, 1.9, 2.5}, 1), go_on));
   std::vector<std::string> first;
-  for (const std::string& name : names) first.push_back(bytes_of(dir.path / "frames" / name));
+  for (const std::string& name : names) first.push_back(test::text_of(dir.path / "frames" / name));
   REQUIRE(make_movie(run, reader, stills({0.4, 1.9, 2.5}, 3), go_on));
   for (std::size_t i = 0; i < names.size(); ++i) {
     INFO(names[i]);
-    CHECK(bytes_of(dir.path / "frames" / names[i]) == first[i]);
+    CHECK(test::text_of(dir.path / "frames" / names[i]) == first[i]);
     const fs::path stored = fs::path(test::in_source("")) / "tests/image" / ("brick_house_" + names[i]);
     // ERBS_WRITE_IMAGES=1 replaces the stored pictures; look at them before a commit.
     if (std::getenv("ERBS_WRITE_IMAGES")) fs::copy_file(dir.path / "frames" / names[i], stored, fs::copy_options::overwrite_existing);
@@ -158,7 +154,7 @@ TEST_CASE("a video appears whole or not at all", "[render][video]") {
     CHECK_FALSE(fs::exists(path));
     video.finish();
   }
-  CHECK(bytes_of(path).find("ftyp") == 4);
+  CHECK(test::text_of(path).find("ftyp") == 4);
   const std::string other = (dir.path / "w.mp4").string();
   { Video video(other, 64, 64, 25); }
   CHECK(fs::is_empty(dir.path) == false);
@@ -175,7 +171,7 @@ TEST_CASE("a video appears whole or not at all", "[render][video]") {
     }
     video.finish();
   }
-  const std::string file = bytes_of(repeated);
+  const std::string file = test::text_of(repeated);
   CHECK(file.substr(0, 4) == "RIFF");
   CHECK(file.substr(8, 4) == "WEBP");
   std::size_t frames = 0;

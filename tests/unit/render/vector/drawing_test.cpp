@@ -10,6 +10,7 @@
 #include "engine/base/error.h"
 #include "engine/base/units.h"
 #include "tests/support/folder.h"
+#include "tests/support/text_of.h"
 #include "tests/unit/render/brick_house.h"
 
 using namespace erbs;
@@ -44,11 +45,6 @@ std::vector<FaceCorners> box(const Vec3& at, const Vec3& half, const Quat& turn)
       faces.push_back(loop);
     }
   return faces;
-}
-
-std::string text_of(const fs::path& path) {
-  std::ifstream in(path);
-  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
 }
 
 std::size_t count(const std::string& text, const std::string& word) {
@@ -168,7 +164,8 @@ TEST_CASE("a line drawing shows outlines, cracks by state, legend and scale", "[
   movie.cameras = {"corner", "from_-y"};
   movie.stills = {0.0, 1.9};
   REQUIRE(make_drawings(run, reader, movie, std::atomic<bool>{false}));
-  const std::string still = text_of(dir.path / "frames/from_-y_t0.000s.svg"), later = text_of(dir.path / "frames/corner_t1.900s.svg");
+  const std::string still = test::text_of(dir.path / "frames/from_-y_t0.000s.svg"),
+                    later = test::text_of(dir.path / "frames/corner_t1.900s.svg");
   for (const std::string& svg : {still, later}) {
     CHECK(svg.starts_with("<?xml"));
     CHECK(count(svg, "<svg") == 1);
