@@ -11,7 +11,7 @@ using namespace erbs::analysis;
 namespace {
 
 // A block of 5 m whose centroid lies beyond its foot, over a floor, and a pier with an eccentric cap.
-Prepared toppling(const std::string& start) {
+Prepared toppling(const std::string& start, const StartTold& told = {}) {
   lua::Script script(lua::Script::Options{.quiet = true});
   const Scene scene = script.load_text(
       "material{ name = 'stone', density = 2400 } joint{ law = dry{ kn = 5e9, mu = .6 } }"
@@ -24,7 +24,7 @@ Prepared toppling(const std::string& start) {
           start + "' }",
       "toppling.lua", {});
   Prepared run = prepare(scene, false);
-  start_at_rest(scene, run, 1);
+  start_at_rest(scene, run, 1, told);
   return run;
 }
 
@@ -60,4 +60,12 @@ TEST_CASE("what stands beside it comes to rest as without it", "[analysis]") {
     const std::size_t b = index_of(ramped.model, name);
     CHECK((ramped.state.pose.u[b] - direct.state.pose.u[b]).norm() < 0.01 * direct.state.pose.u[b].norm());
   }
+}
+
+TEST_CASE("the start tells how it comes on, and who hears it may end it", "[analysis]") {
+  std::vector<std::string> lines;
+  toppling("ramp", [&](const std::string& line) { lines.push_back(line); });
+  REQUIRE_FALSE(lines.empty());
+  CHECK_THAT(lines.front(), Catch::Contains("before the run, gravity comes slowly: 0.00 of at most "));
+  CHECK_THROWS_WITH(toppling("ramp", [](const std::string&) { throw Error("enough"); }), "enough");
 }

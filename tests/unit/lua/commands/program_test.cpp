@@ -128,6 +128,8 @@ TEST_CASE("what does not stand under its own weight has that as its verdict, wit
   CHECK(collapse["time_s"].is_null());
   CHECK(bench.run(overhanging + "analysis { duration = 0.3, start = 'rest' }", {"--force"}) == 0);
   CHECK(read_json(bench.out() + "/metrics.json")["collapse"]["under_gravity"] == false);
+  CHECK(bench.run(overhanging + "analysis { duration = 0.3 }", {"--force", "--max-wall", "0.0001"}) == 2);
+  CHECK(contains(bench.said, "0.0001 s were not enough for the structure to come to rest before the first step; nothing is written"));
 }
 
 TEST_CASE("a run past its gate is inaccurate in status, exit code and last line, and names the knob", "[program]") {
