@@ -14,6 +14,7 @@
 #include "engine/analysis/start/at_rest.h"
 #include "engine/analysis/verdict.h"
 #include "engine/base/count.h"
+#include "engine/base/units.h"
 #include "engine/record/folder/checkpoint.h"
 #include "engine/record/results/course.h"
 #include "engine/scene/effects.h"
@@ -148,6 +149,7 @@ void Run::watch(const BlockVec3& built) {
   for (const int b : run_.fallers) collapse_.start[z(b)] = built[z(b)].z();
   if (run_.fallers.empty() || falling_share(run_) < scene_.analysis.collapse_fraction) return;
   collapse_.collapsed = collapse_.under_gravity = true;
+  collapse_.time = infinite;  // it has not fallen yet
   collapse_.mechanism = mechanism_of(run_.model, run_.fallen ? *run_.fallen : run_.state.pose, 0);
 }
 

@@ -54,7 +54,9 @@ bool update(Collapse& collapse, const Model& model, const BlockPoses& pose, doub
     collapse.fall_time[b] = t;
   }
   collapse.fallen_fraction = moving > 0 ? fallen / moving : 0;
-  if (collapse.collapsed || fallen == 0 || collapse.fallen_fraction < model.analysis.collapse_fraction) return false;
+  if (fallen == 0 || collapse.fallen_fraction < model.analysis.collapse_fraction) return false;
+  if (collapse.under_gravity) collapse.time = std::min(collapse.time, t);
+  if (collapse.collapsed) return false;
   collapse.collapsed = true;
   collapse.time = t;
   collapse.mechanism = mechanism_of(model, pose, t);

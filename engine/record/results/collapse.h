@@ -23,8 +23,8 @@ struct Collapse {
   std::vector<double> fall_time;     // s, ... for the first time at this one [nblock]
   double fallen_fraction = 0;        // fallen share of the moving mass, now
   bool collapsed = false;            // the share has once reached Analysis::collapse_fraction
-  double time = 0;                   // s, time of collapse
-  bool under_gravity = false;        // the structure cannot stand under its own weight: no shaking caused the collapse, no time applies
+  double time = 0;                   // s, at which the share reached it
+  bool under_gravity = false;        // the structure cannot stand under its own weight: a collapse without a cause in time
   bool moved = false;                // a block has moved by Analysis::stop_when_moved from rest
   Mechanism mechanism;               // at the collapse
 };

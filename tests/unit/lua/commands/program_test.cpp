@@ -128,6 +128,10 @@ TEST_CASE("what does not stand under its own weight has that as its verdict, wit
   CHECK(collapse["time_s"].is_null());
   CHECK(bench.run(overhanging + "analysis { duration = 0.3, start = 'rest' }", {"--force"}) == 0);
   CHECK(read_json(bench.out() + "/metrics.json")["collapse"]["under_gravity"] == false);
+  CHECK(bench.run(overhanging + "analysis { duration = 5, stop_after_collapse = 0.1 }", {"--force"}) == 0);  // after it has fallen
+  CHECK(read_json(bench.out() + "/metrics.json")["time_s"] > 0.2);
+  CHECK(read_json(bench.out() + "/metrics.json")["time_s"] < 1.);
+  CHECK(read_json(bench.out() + "/metrics.json")["collapse"]["time_s"].is_null());
   CHECK(bench.run(overhanging + "analysis { duration = 0.3 }", {"--force", "--max-wall", "0.0001"}) == 2);
   CHECK(contains(bench.said, "0.0001 s were not enough for the structure to come to rest before the first step; nothing is written"));
 }
