@@ -5,9 +5,9 @@
 
 namespace erbs::analysis {
 
-// Applies gravity, on the table as it stands at first, and constant loads as `Analysis::start` says. Islands without an equilibrium by Newton's method get a damped ramp
-// instead; others do not. What lies on the structure without a joint is lowered onto it (resting.h). Velocities stay as the scene gives
-// them.
+// Applies gravity, on the table as it stands at first, and constant loads as `Analysis::start` says. Islands without an equilibrium by
+// Newton's method get a damped ramp instead; others do not. What lies on the structure without a joint is lowered onto it (resting.h).
+// Velocities stay as the scene gives them.
 void start_at_rest(const Scene& scene, Prepared& run, int threads, const StartTold& told = {});
 
 // The start in metrics.json and manifest.json.

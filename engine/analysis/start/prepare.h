@@ -18,7 +18,7 @@ struct Prepared {
   Equilibrium equilibrium;
   double equilibrium_wall = 0;       // s
   std::vector<int> fallers;          // blocks that a damped ramp of gravity does not bring to rest ...
-  std::optional<BlockPoses> fallen;  // ... and where it has left them: the run begins before they have gone there
+  std::optional<BlockPoses> fallen;  // ... and where it has left all, if the run begins before that
   std::vector<std::string> warnings;
   std::vector<std::string> notes;  // details of a summary warning, for log.txt
 };

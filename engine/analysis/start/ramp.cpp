@@ -52,7 +52,9 @@ class Unrest {
   bool toppled(int b) const { return tilt(b) > far_over; }
   bool any_leaves() const {
     for (int b = 0; b < model_.nblock; ++b)
-      if (model_.kind[z(b)] == Kind::moving && (sunk(b) > leaving * model_.thickness[z(b)] || tilt(b) > leaving)) return true;
+      if (model_.kind[z(b)] == Kind::moving &&
+          ((state_.pose.u[z(b)] - start_.u[z(b)]).norm() > leaving * model_.thickness[z(b)] || tilt(b) > leaving))
+        return true;
     return false;
   }
   bool moves(int b) const { return square(b) > square_; }
@@ -152,56 +154,6 @@ void ramp(const Model& slow, Prepared& p, const std::vector<std::uint8_t>& still
   begin_anew(p.model, before, s);
 }
 
-// Blocks of the islands that hold one of `some`.
-std::vector<std::uint8_t> islands_of(const Model& m, const Topology& topology, const std::vector<int>& some) {
-  std::vector<std::uint8_t> named(z(m.nblock)), out(z(m.nblock));
-  for (const int b : some) named[z(topology.island[z(b)])] = 1;
-  for (int b = 0; b < m.nblock; ++b) out[z(b)] = named[z(topology.island[z(b)])];
-  return out;
-}
-
-// ramp_gravity() from a share of the weights on. They come as if the ground accelerated downwards by g at first, and by nothing at last.
-// What falls begins the run before it has left its place, under its whole weight if it stands for so long: the fall belongs to the run. All
-// else comes to rest without it.
-std::vector<int> ramp_from(double share, const Scene& scene, Prepared& p, const std::vector<std::uint8_t>& still, int threads,
-                           bool damp_loose, const StartTold& told) {
-  const double time = duration_of(scene, p, still, {});
-  Model slow = slow_model(p.model, time, still);
-  slow.damping_all = damp_loose;
-  slow.grounds = {{make_table({0, time}, {1 - share, 0}, true), p.model.gravity}};
-  for (auto& load : slow.force_loads) {
-    const double full = value(load.wave, 0);
-    load.wave = make_table({0, time}, {share * full, full}, true);
-  }
-  const State before = p.state;
-  const Unrest unrest(slow, p.state);
-  std::vector<int> restless;
-  std::optional<State> early;
-  double reached = 0;
-  ramp(slow, p, still, threads, told, "gravity comes slowly", ramp_limit * time, [&] {
-    const double t = p.state.time.t;
-    if (!early && (t >= settled * time || unrest.any_leaves())) early = p.state, reached = std::min(1.0, share + (1 - share) * t / time);
-    const bool ended = t >= time && (unrest.ended() || t >= ramp_limit * time);
-    if (ended) restless = unrest.count([&](int b) { return unrest.moves(b) || unrest.falls(b) || unrest.toppled(b); });
-    return ended;
-  });
-  if (restless.empty() || !early) return restless;
-  const std::vector<std::uint8_t> gone = islands_of(p.model, before.topology, restless);
-  std::vector<std::uint8_t> rest = still;
-  rest.resize(z(p.model.nblock));
-  bool others = false;
-  if (!p.fallen) p.fallen = p.state.pose;
-  for (int b = 0; b < p.model.nblock; ++b)
-    if (gone[z(b)] != 0) rest[z(b)] = 1, p.fallen->u[z(b)] = p.state.pose.u[z(b)], p.fallen->q[z(b)] = p.state.pose.q[z(b)];
-    else others |= rest[z(b)] == 0 && p.model.kind[z(b)] == Kind::moving;
-  p.state = std::move(*early);
-  if (!still.empty()) Held{still, before}.give_back(p.model, p.state);
-  begin_anew(p.model, before, p.state);
-  if (others) std::ranges::copy(ramp_from(reached, scene, p, rest, threads, damp_loose, told), std::back_inserter(restless));
-  std::ranges::sort(restless);
-  return restless;
-}
-
 }  // namespace
 
 void Held::give_back(const Model& m, State& s) const {
@@ -217,9 +169,39 @@ void Held::give_back(const Model& m, State& s) const {
   }
 }
 
+// The weights come as if the ground accelerated downwards by g at first, and by nothing at last. What stands under the whole weight for a
+// while before it falls begins the run there: the fall belongs to the run. What falls sooner lies where it fell, for the rest of its
+// structure would begin under a part of its weight.
 std::vector<int> ramp_gravity(const Scene& scene, Prepared& p, const std::vector<std::uint8_t>& still, int threads, bool damp_loose,
                               const StartTold& told) {
-  return ramp_from(0, scene, p, still, threads, damp_loose, told);
+  const double time = duration_of(scene, p, still, {});
+  Model slow = slow_model(p.model, time, still);
+  slow.damping_all = damp_loose;
+  slow.grounds = {{fading(time), p.model.gravity}};
+  for (auto& load : slow.force_loads) load.wave = rising(time, value(load.wave, 0));
+  const State before = p.state;
+  const Unrest unrest(slow, p.state);
+  std::vector<int> restless, moving;
+  std::optional<State> upright;           // the last time that nothing had left its place; then these moved:
+  bool left = scene.push.quasi_static();  // a push asks for what comes to rest in the end
+  double due = settled * time;
+  ramp(slow, p, still, threads, told, "gravity comes slowly", ramp_limit * time, [&] {
+    const double t = p.state.time.t;
+    left = left || unrest.any_leaves();
+    if (!left && t >= due) {
+      upright = p.state, due += time;
+      moving = unrest.count([&](int b) { return unrest.moves(b); });
+    }
+    const bool ended = t >= time && (unrest.ended() || t >= ramp_limit * time);
+    if (ended) restless = unrest.count([&](int b) { return unrest.moves(b) || unrest.falls(b) || unrest.toppled(b); });
+    return ended;
+  });
+  if (restless.empty() || !upright || !std::ranges::includes(restless, moving)) return restless;
+  p.fallen = p.state.pose;
+  p.state = std::move(*upright);
+  if (!still.empty()) Held{still, before}.give_back(p.model, p.state);
+  begin_anew(p.model, before, p.state);
+  return restless;
 }
 
 std::vector<int> lower_blocks(const Scene& scene, Prepared& p, const Resting& resting, int threads, const StartTold& told) {

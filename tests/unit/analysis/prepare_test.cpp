@@ -187,7 +187,8 @@ TEST_CASE("loads that begin after the run, and supports that jump, are told", "[
 TEST_CASE("a wall on a table that is tilted from the start is at rest on it", "[analysis]") {
   for (const char* start : {"equilibrium", "ramp"}) {
     CAPTURE(start);
-    const Scene scene = test::small_wall(std::string("tilt{ axis = 'x', wave = function() return -0.05 end } analysis{duration=1, start='") + start + "'}");
+    const Scene scene =
+        test::small_wall(std::string("tilt{ axis = 'x', wave = function() return -0.05 end } analysis{duration=1, start='") + start + "'}");
     Prepared run = prepare(scene, false);
     start_at_rest(scene, run, 1);
     const BlockVec3 start_u = run.state.pose.u;

@@ -10,11 +10,18 @@ using namespace erbs::analysis;
 
 namespace {
 
+Prepared at_start(const std::string& text, const StartTold& told = {}) {
+  lua::Script script(lua::Script::Options{.quiet = true});
+  const Scene scene = script.load_text("material{ name = 'stone', density = 2400 } " + text, "start.lua", {});
+  Prepared run = prepare(scene, false);
+  start_at_rest(scene, run, 1, told);
+  return run;
+}
+
 // A block of 5 m whose centroid lies beyond its foot, over a floor, and a pier with an eccentric cap.
 Prepared toppling(const std::string& start, const StartTold& told = {}) {
-  lua::Script script(lua::Script::Options{.quiet = true});
-  const Scene scene = script.load_text(
-      "material{ name = 'stone', density = 2400 } joint{ law = dry{ kn = 5e9, mu = .6 } }"
+  return at_start(
+      "joint{ law = dry{ kn = 5e9, mu = .6 } }"
       "box{ name = 'floor', group = 'floor', size = { 20, 20, .5 }, at = { -10, -10, -.5 }, fixed = true }"
       "box{ name = 'foot', size = { 1, 1, .3 }, at = { 0, 0, 0 } }"
       "box{ name = 'tall', group = 'tall', size = { 1, 1, 5 }, at = { .6, 0, .3 } }"
@@ -22,10 +29,7 @@ Prepared toppling(const std::string& start, const StartTold& told = {}) {
       "box{ name = 'pier', size = { 1, 1, 2 }, at = { -6, 0, 0 } } box{ name = 'cap', size = { 1, 1, .5 }, at = { -5.7, 0, 2 } }"
       "analysis{ duration = 1, start = '" +
           start + "' }",
-      "toppling.lua", {});
-  Prepared run = prepare(scene, false);
-  start_at_rest(scene, run, 1, told);
-  return run;
+      told);
 }
 
 std::size_t index_of(const Model& m, const std::string& name) {
@@ -59,6 +63,29 @@ TEST_CASE("what stands beside it comes to rest as without it", "[analysis]") {
   for (const char* name : {"pier", "cap"}) {
     const std::size_t b = index_of(ramped.model, name);
     CHECK((ramped.state.pose.u[b] - direct.state.pose.u[b]).norm() < 0.01 * direct.state.pose.u[b].norm());
+  }
+}
+
+TEST_CASE("a chip that falls at once leaves the pier it was on under its whole weight", "[analysis]") {
+  const auto pier = [](const std::string& chip) {
+    return at_start(
+        "ground{ size = 20 } for i = 0, 5 do box{ name = 'p' .. i, group = 'pier', size = { .5, .5, .5 }, at = { 0, 0, .5 * i } } end"
+        " joint{ law = mortar{ kn = 5e9, ft = .1e6, c = .15e6, mu = .6 } } analysis{ duration = 1 } " +
+        chip);
+  };
+  for (const char* thickness : {".005", ".02", ".1"}) {
+    CAPTURE(thickness);
+    const std::string size = thickness;
+    Prepared with = pier("box{ name = 'chip', group = 'chip', size = { " + size + ", .3, " + size +
+                         " }, at = { .5, .1, 2.2 } } joint{ between = { 'pier', 'chip' }, law = dry{ kn = 5e9, mu = .6 } }");
+    const Prepared alone = pier("");
+    const std::size_t top = index_of(alone.model, "p5");
+    REQUIRE(with.fallers == std::vector<int>{int(index_of(with.model, "chip"))});
+    const Vec3 start = with.state.pose.u[top], settled = alone.state.pose.u[top];
+    CHECK((start - settled).norm() < 0.05 * settled.norm());
+    Solver solver(with.model, with.state, with.range, 1);
+    solver.advance_until([&] { return with.state.time.t >= 0.05; });
+    CHECK((with.state.pose.u[top] - start).norm() < 0.05 * settled.norm());
   }
 }
 
