@@ -58,6 +58,13 @@ class Unrest {
     return false;
   }
   bool moves(int b) const { return square(b) > square_; }
+  // Blocks that are not where they were built: no chain of joints that have kept leads from them to the ground. What settles or leans with
+  // its support has its place. Without joints, what has fallen or toppled.
+  std::vector<int> astray() const {
+    const std::vector<std::uint8_t> had = borne([](const Joint&) { return true; });
+    const std::vector<std::uint8_t> has = borne([&](const Joint& j) { return !parted(j); });
+    return count([&](int b) { return had[z(b)] != 0 ? has[z(b)] == 0 : falls(b) || toppled(b); });
+  }
   // The force that moves it against the damping, over its weight, exceeds `share`.
   bool unbalanced(int b, double share) const {
     const double speed = share * model_.gravity.norm() / model_.damping.mass;
@@ -77,6 +84,11 @@ class Unrest {
   double square(int b) const {  // m2/s2, of the speed of translation and rotation
     return state_.motion.v[z(b)].squaredNorm() + state_.motion.w[z(b)].dot(state_.motion.spin_momentum[z(b)]) / model_.mass[z(b)];
   }
+  // Blocks that are not where they were built, and blocks that still move.
+  std::vector<int> restless() const {
+    const std::vector<int> gone = astray();
+    return count([&](int b) { return moves(b) || std::ranges::binary_search(gone, b); });
+  }
   std::vector<double> squares() const {
     std::vector<double> out(z(model_.nblock), 0);
     for (int b = 0; b < model_.nblock; ++b)
@@ -85,6 +97,34 @@ class Unrest {
   }
 
  private:
+  // The two sides of a joint have moved apart by half of the thinner block, or rotated against each other.
+  bool parted(const Joint& joint) const {
+    const auto way = [&](int b, const Vec3& arm) {
+      return Vec3(state_.pose.u[z(b)] - start_.u[z(b)] + state_.pose.q[z(b)] * arm - start_.q[z(b)] * arm);
+    };
+    const auto rotated = [&](int b) { return Quat(Quat(state_.pose.q[z(b)]) * Quat(start_.q[z(b)]).conjugate()); };
+    const double thinner = std::min(thickness(joint.a), thickness(joint.b));
+    return (way(joint.b, joint.arm_b) - way(joint.a, joint.arm_a)).norm() > 0.5 * thinner ||
+           rotated(joint.a).angularDistance(rotated(joint.b)) > far_over;
+  }
+  double thickness(int b) const { return model_.kind[z(b)] == Kind::moving ? model_.thickness[z(b)] : 1e300; }
+  // Blocks that such joints lead to what stays in place.
+  std::vector<std::uint8_t> borne(const std::function<bool(const Joint&)>& such) const {
+    std::vector<std::vector<int>> next(z(model_.nblock));
+    for (int j = 0; j < model_.njoint; ++j)
+      if (const Joint& joint = model_.joint[z(j)]; such(joint)) next[z(joint.a)].push_back(joint.b), next[z(joint.b)].push_back(joint.a);
+    std::vector<std::uint8_t> out(z(model_.nblock));
+    std::vector<int> open;
+    for (int b = 0; b < model_.nblock; ++b)
+      if (model_.kind[z(b)] != Kind::moving) out[z(b)] = 1, open.push_back(b);
+    while (!open.empty()) {
+      const int at = open.back();
+      open.pop_back();
+      for (const int b : next[z(at)])
+        if (out[z(b)] == 0) out[z(b)] = 1, open.push_back(b);
+    }
+    return out;
+  }
   double sunk(int b) const { return down_.dot(state_.pose.u[z(b)] - start_.u[z(b)]); }                  // m
   double tilt(int b) const { return Quat(state_.pose.q[z(b)]).angularDistance(Quat(start_.q[z(b)])); }  // rad
 
@@ -193,7 +233,7 @@ std::vector<int> ramp_gravity(const Scene& scene, Prepared& p, const std::vector
       moving = unrest.count([&](int b) { return unrest.moves(b); });
     }
     const bool ended = t >= time && (unrest.ended() || t >= ramp_limit * time);
-    if (ended) restless = unrest.count([&](int b) { return unrest.moves(b) || unrest.falls(b) || unrest.toppled(b); });
+    if (ended) restless = unrest.restless();
     return ended;
   });
   if (restless.empty() || !upright || !std::ranges::includes(restless, moving)) return restless;

@@ -89,6 +89,22 @@ TEST_CASE("a chip that falls at once leaves the pier it was on under its whole w
   }
 }
 
+TEST_CASE("what settles with its support stands, however thin it is; what has slid to where it rests does not", "[analysis]") {
+  const auto slabs = [](const std::string& more) {
+    return at_start(
+        "ground{ size = 20 } for i = 0, 7 do box{ name = 'slab' .. i, size = { .5, .5, .02 }, at = { 0, 0, .02 * i } } end "
+        "box{ name = 'top', size = { .5, .5, .5 }, at = { 0, 0, .16 } } joint{ law = dry{ kn = 1e7, mu = .6 } } "
+        "analysis{ duration = 1, start = 'ramp' } " +
+        more);
+  };
+  const Prepared stack = slabs("");
+  const double settled = -stack.state.pose.u[index_of(stack.model, "slab7")].z();
+  CHECK(settled > 0.01);  // more than half of its thickness
+  CHECK(stack.fallers.empty());
+  const Prepared pushed = slabs("force{ block = 'slab7', wave = 8000, direction = 'x' }");
+  CHECK(pushed.fallers.size() >= 2);  // it has gone from between the others, and the top with it
+}
+
 TEST_CASE("the start tells how it comes on, and who hears it may end it", "[analysis]") {
   std::vector<std::string> lines;
   toppling("ramp", [&](const std::string& line) { lines.push_back(line); });
