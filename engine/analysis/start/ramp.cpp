@@ -227,10 +227,9 @@ std::vector<int> ramp_gravity(const Scene& scene, Prepared& p, const std::vector
   double due = settled * time;
   ramp(slow, p, still, threads, told, "gravity comes slowly", ramp_limit * time, [&] {
     const double t = p.state.time.t;
-    left = left || unrest.any_leaves();
     if (!left && t >= due) {
-      upright = p.state, due += time;
-      moving = unrest.count([&](int b) { return unrest.moves(b); });
+      due += time, left = unrest.any_leaves();
+      if (!left) upright = p.state, moving = unrest.count([&](int b) { return unrest.moves(b); });
     }
     const bool ended = t >= time && (unrest.ended() || t >= ramp_limit * time);
     if (ended) restless = unrest.restless();
