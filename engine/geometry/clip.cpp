@@ -6,7 +6,6 @@
 #include <utility>
 
 namespace erbs {
-namespace {}  // namespace
 
 Polygon2 clip_half_plane(const Polygon2& polygon, const Vec2& n, double d) {
   Polygon2 kept;

@@ -30,9 +30,9 @@ constexpr int stages = 3;
 // slides at 5e-4 m/s against the ramp's damping of 100 1/s. A structure of 1 m is at rest below 4e-4 m/s. A slower block falls by less than
 // a tenth of a millimetre during a shock.
 constexpr double rest_energy = 1e-8;
-constexpr double far_over = 0.05;  // rad
-constexpr double leaving = 0.05;   // of the thickness of a block, or rad: less than it moves while it stands
-constexpr double settled = 2;      // ramps, after which what stands is nearly at rest
+constexpr double far_over = 0.05;   // rad
+constexpr double leaving = 0.05;    // of the thickness of a block, or rad: less than it moves while it stands
+constexpr double look_again = 1.1;  // from the end of the ramp on: ratio of the times at which a state is kept
 
 // Blocks that still move, and blocks that fall: lower than at the start by half their thinnest extent, the criterion of `Collapse`.
 class Unrest {
@@ -50,6 +50,7 @@ class Unrest {
   bool falls(int b) const { return sunk(b) > 0.5 * model_.thickness[z(b)]; }
   // Has toppled, to where it may lie at rest. Elastic structures lean by less.
   bool toppled(int b) const { return tilt(b) > far_over; }
+  // A block has begun to leave its place.
   bool any_leaves() const {
     for (int b = 0; b < model_.nblock; ++b)
       if (model_.kind[z(b)] == Kind::moving &&
@@ -64,6 +65,11 @@ class Unrest {
     const std::vector<std::uint8_t> had = borne([](const Joint&) { return true; });
     const std::vector<std::uint8_t> has = borne([&](const Joint& j) { return !parted(j); });
     return count([&](int b) { return had[z(b)] != 0 ? has[z(b)] == 0 : falls(b) || toppled(b); });
+  }
+  // Blocks that are not where they were built, and blocks that still move.
+  std::vector<int> restless() const {
+    const std::vector<int> gone = astray();
+    return count([&](int b) { return moves(b) || std::ranges::binary_search(gone, b); });
   }
   // The force that moves it against the damping, over its weight, exceeds `share`.
   bool unbalanced(int b, double share) const {
@@ -83,11 +89,6 @@ class Unrest {
 
   double square(int b) const {  // m2/s2, of the speed of translation and rotation
     return state_.motion.v[z(b)].squaredNorm() + state_.motion.w[z(b)].dot(state_.motion.spin_momentum[z(b)]) / model_.mass[z(b)];
-  }
-  // Blocks that are not where they were built, and blocks that still move.
-  std::vector<int> restless() const {
-    const std::vector<int> gone = astray();
-    return count([&](int b) { return moves(b) || std::ranges::binary_search(gone, b); });
   }
   std::vector<double> squares() const {
     std::vector<double> out(z(model_.nblock), 0);
@@ -171,11 +172,11 @@ void begin_anew(const Model& m, const State& before, State& s) {
 }
 
 // Steps of a model of the ramp from rest; velocities and time are given back, and the state that is still. `what` happens, until `most` s
-// at the latest.
-void ramp(const Model& slow, Prepared& p, const std::vector<std::uint8_t>& still, int threads, const StartTold& told,
-          const std::string& what, double most, const std::function<bool()>& ended) {
+// at the latest. Returns the state before.
+State ramp(const Model& slow, Prepared& p, const std::vector<std::uint8_t>& still, int threads, const StartTold& told,
+           const std::string& what, double most, const std::function<bool()>& ended) {
   State& s = p.state;
-  const State before = s;
+  State before = s;
   s.motion.v.assign(s.motion.v.size(), Vec3::Zero());
   s.motion.spin_momentum.assign(s.motion.v.size(), Vec3::Zero());
   find_islands(slow, s);
@@ -192,6 +193,7 @@ void ramp(const Model& slow, Prepared& p, const std::vector<std::uint8_t>& still
   });
   if (!still.empty()) Held{still, before}.give_back(p.model, s);
   begin_anew(p.model, before, s);
+  return before;
 }
 
 }  // namespace
@@ -219,16 +221,15 @@ std::vector<int> ramp_gravity(const Scene& scene, Prepared& p, const std::vector
   slow.damping_all = damp_loose;
   slow.grounds = {{fading(time), p.model.gravity}};
   for (auto& load : slow.force_loads) load.wave = rising(time, value(load.wave, 0));
-  const State before = p.state;
   const Unrest unrest(slow, p.state);
   std::vector<int> restless, moving;
   std::optional<State> upright;           // the last time that nothing had left its place; then these moved:
   bool left = scene.push.quasi_static();  // a push asks for what comes to rest in the end
-  double due = settled * time;
-  ramp(slow, p, still, threads, told, "gravity comes slowly", ramp_limit * time, [&] {
+  double due = time;
+  const State before = ramp(slow, p, still, threads, told, "gravity comes slowly", ramp_limit * time, [&] {
     const double t = p.state.time.t;
     if (!left && t >= due) {
-      due += time, left = unrest.any_leaves();
+      due *= look_again, left = unrest.any_leaves();
       if (!left) upright = p.state, moving = unrest.count([&](int b) { return unrest.moves(b); });
     }
     const bool ended = t >= time && (unrest.ended() || t >= ramp_limit * time);

@@ -12,8 +12,6 @@
 
 using namespace erbs;
 
-namespace {}  // namespace
-
 TEST_CASE("a program reads what it is fed and writes into the files it is given", "[process]") {
   const test::Folder own;
   const std::string out = (own.path / "out").string(), errors = (own.path / "errors").string();
