@@ -14,26 +14,29 @@ Vec3 place_of(const Model& m, const State& s, int b) { return m.rest[z(b)] + s.p
 
 }  // namespace
 
-std::string lost_blocks(const Model& m, const State& s) {
+std::vector<int> blocks_past_ground(const Model& m, const State& s) {
   const double g = m.gravity.norm();
-  if (!(g > 0) || std::find(m.kind.begin(), m.kind.end(), Kind::fixed) == m.kind.end()) return {};
+  if (!(g > 0) || std::ranges::find(m.kind, Kind::fixed) == m.kind.end()) return {};
   const Vec3 up = -m.gravity / g;
   double low = std::numeric_limits<double>::infinity(), high = -low;
   for (int b = 0; b < m.nblock; ++b) low = std::min(low, up.dot(m.rest[z(b)])), high = std::max(high, up.dot(m.rest[z(b)]));
-  int count = 0, first = -1;
+  std::vector<int> out;
+  for (int b = 0; b < m.nblock; ++b)
+    if (m.kind[z(b)] == Kind::moving && up.dot(place_of(m, s, b)) < low - (high - low)) out.push_back(b);
+  return out;
+}
+
+std::string lost_blocks(const Model& m, const State& s) {
+  const std::vector<int> lost = blocks_past_ground(m, s);
+  if (lost.empty()) return {};
   double farthest = 0;  // m, horizontal distance from the centre of the ground
-  for (int b = 0; b < m.nblock; ++b) {
-    if (m.kind[z(b)] != Kind::moving || !(up.dot(m.rest[z(b)] + s.pose.u[z(b)]) < low - (high - low))) continue;
-    if (first < 0) first = b;
-    ++count;
-    farthest = std::max(farthest, place_of(m, s, b).head<2>().lpNorm<Eigen::Infinity>() + m.smallest_edge[z(b)]);
-  }
-  if (count == 0) return {};
-  const Vec3 at = place_of(m, s, first);
+  for (const int b : lost) farthest = std::max(farthest, place_of(m, s, b).head<2>().lpNorm<Eigen::Infinity>() + m.smallest_edge[z(b)]);
+  const std::size_t count = lost.size();
+  const Vec3 at = place_of(m, s, lost.front());
   return fmt::format(
       "{} block{} fell past the ground by more than the height of the structure, '{}' the first of the scene, now at ({:.3g}, {:.3g}, "
       "{:.3g}) m; if what comes off should land, make the ground larger: ground{{ size = {:g} }} reaches below {}",
-      count, count > 1 ? "s" : "", m.block_name[z(first)], at.x(), at.y(), at.z(), std::ceil(2 * farthest + 1),
+      count, count > 1 ? "s" : "", m.block_name[z(lost.front())], at.x(), at.y(), at.z(), std::ceil(2 * farthest + 1),
       count > 1 ? "all of them" : "it");
 }
 

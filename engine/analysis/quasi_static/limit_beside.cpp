@@ -4,6 +4,7 @@
 
 #include "engine/analysis/limit/limit.h"
 #include "engine/analysis/limit/outcome.h"
+#include "engine/base/count.h"
 #include "engine/base/error.h"
 
 namespace erbs::analysis {
@@ -26,10 +27,20 @@ LimitBracket bracket_of(const LimitResult& r, const Model& model) {
   return out;
 }
 
+// These blocks are fixed where they were built, and no joint leads to them.
+Model without(Model m, const std::vector<std::uint8_t>& blocks) {
+  for (int b = 0; b < m.nblock; ++b)
+    if (blocks[z(b)] != 0) m.kind[z(b)] = Kind::fixed;
+  std::erase_if(m.joint, [&](const Joint& j) { return blocks[z(j.a)] != 0 || blocks[z(j.b)] != 0; });
+  m.njoint = int(m.joint.size());
+  return m;
+}
+
 }  // namespace
 
-std::optional<LimitBeside> limit_beside(const Scene& scene, const Model& model, std::string& why) {
+std::optional<LimitBeside> limit_beside(const Scene& scene, const Model& whole, const std::vector<std::uint8_t>& fell, std::string& why) {
   if (scene.push.limit == "never") return std::nullopt;
+  const Model model = without(whole, fell);
   try {
     const LimitLoad load = limit_load(scene, model);
     const LimitProblem problem = limit_problem(model, load, {});

@@ -1,7 +1,9 @@
 // Limit analysis of the structure that a push has collapsed, beside its capacity.
 #pragma once
+#include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "engine/model/model.h"
 #include "engine/record/results/capacity.h"
@@ -9,7 +11,8 @@
 
 namespace erbs::analysis {
 
-// None where `limit` of the push does not ask for it, or asks only if it takes seconds. `why`: what keeps limit analysis from an answer.
-std::optional<LimitBeside> limit_beside(const Scene& scene, const Model& model, std::string& why);
+// `fell`: blocks that had fallen off before the push and are left out [nblock]. None where `limit` of the push does not ask for it, or asks
+// only if it takes seconds. `why`: what keeps limit analysis from an answer.
+std::optional<LimitBeside> limit_beside(const Scene& scene, const Model& model, const std::vector<std::uint8_t>& fell, std::string& why);
 
 }  // namespace erbs::analysis

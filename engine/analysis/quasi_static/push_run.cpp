@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/analysis/lost_blocks.h"
 #include "engine/analysis/quasi_static/limit_beside.h"
 #include "engine/analysis/quasi_static/push_events.h"
 #include "engine/analysis/quasi_static/push_results.h"
@@ -93,9 +94,11 @@ void PushRun::begin() {
     add_noise(run_, options_.noise, options_.noise_seed);
     add_noise(run_, options_.twin_noise, 2);
     collapse_ = watch_collapse(run_.model, run_.state.pose);
-    for (const int b : run_.fallers) collapse_.start[z(b)] = built[z(b)].z();
     gravity_alone_ = falling_share(run_) >= scene_.analysis.collapse_fraction;
+    so_far_.fell.assign(z(run_.model.nblock), 0);
+    for (const int b : run_.fallers) collapse_.start[z(b)] = built[z(b)].z(), so_far_.fell[z(b)] = !gravity_alone_;
   }
+  relaxation_->leave_out(blocks_past_ground(run_.model, run_.state));
   Manifest manifest = manifest_of_run(scene_, script_, run_, options_);
   manifest.dt = dt;
   const Recorders wanted(scene_, run_.model);  // reports columns of equal names before anything is written
@@ -259,8 +262,10 @@ void PushRun::fall(bool drawn) {
   Mechanism joints;
   bool named = false;
   const auto name = [&] {
-    joints = mechanism_of(run_.model, run_.state.pose, so_far_.t);
-    const BlockMotions motions = motions_of(run_.state.pose, run_.model.nblock);
+    joints = mechanism_of(run_.model, run_.state.pose, so_far_.t, so_far_.fell);
+    BlockMotions motions = motions_of(run_.state.pose, run_.model.nblock);
+    for (int b = 0; b < run_.model.nblock; ++b)
+      if (so_far_.fell[z(b)] != 0) motions.u[z(b)] = motions.theta[z(b)] = Vec3::Zero();
     mechanism_ = name_mechanism(run_.model, motions, joints, push_.direction);
     walls_ = wall_mechanisms(run_.model, motions, joints, push_.direction, group_);
     named = true;
@@ -358,7 +363,7 @@ RunOutcome PushRun::go() {
   }
   if (status == "completed") {
     std::string why;
-    limit_ = limit_beside(scene_, run_.model, why);
+    limit_ = limit_beside(scene_, run_.model, so_far_.fell, why);
     if (!why.empty()) writer_->log("no limit analysis beside the capacity: " + why);
   }
   writer_->log(fmt::format("status {}", status));

@@ -380,6 +380,7 @@ void Relaxation::take_times(const Solver& solver) {
 
 void Relaxation::release(State& s, double duration, double interval, const Seen& seen) {
   Model falling = run_.model;
+  falling.kind = model_.kind;
   falling.edge_force = edge_force;
   falling.grounds = model_.grounds, falling.tilts = model_.tilts, falling.force_loads = model_.force_loads;
   start(s, true_dt_);

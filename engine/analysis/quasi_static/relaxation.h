@@ -70,6 +70,9 @@ class Relaxation {
   const Profile& profile() const { return profile_; }  // of all relaxations
   double searched() const { return searched_; }        // s, for contacts in them
   long steps() const { return steps_; }                // of all that have ended
+  void leave_out(const std::vector<int>& blocks) {  // what falls for ever and has no equilibrium
+    for (const int b : blocks) model_.kind[std::size_t(b)] = Kind::fixed;
+  }
   void set_load(double multiplier) { loads_.set(multiplier); }
   Vec3 reaction(const Solver& solver) const;  // N, on fixed and driven blocks
 

@@ -4,8 +4,9 @@
 #include <chrono>
 #include <functional>
 #include <iterator>
-#include <optional>
+#include <utility>
 
+#include "engine/analysis/lost_blocks.h"
 #include "engine/analysis/start/elastic_push.h"
 #include "engine/base/count.h"
 #include "engine/base/error.h"
@@ -30,9 +31,12 @@ constexpr int stages = 3;
 // slides at 5e-4 m/s against the ramp's damping of 100 1/s. A structure of 1 m is at rest below 4e-4 m/s. A slower block falls by less than
 // a tenth of a millimetre during a shock.
 constexpr double rest_energy = 1e-8;
-constexpr double far_over = 0.05;   // rad
-constexpr double leaving = 0.05;    // of the thickness of a block, or rad: less than it moves while it stands
-constexpr double look_again = 1.1;  // from the end of the ramp on: ratio of the times at which a state is kept
+constexpr double far_over = 0.05;  // rad
+// How far what falls is let while it is held back: of its thickness, in the time of the ramp. After it, speed over that at rest.
+constexpr double held_way = 0.02, held_rest = 0.5;
+constexpr double looks = 25000;  // at a ramp, in its longest time, or after every step
+constexpr int rests = 10;        // looks at rest one after the other: what bounces is at rest for an instant
+constexpr int most_rounds = 4;   // of holding back, each with the blocks that would not stand in the one before
 
 // Blocks that still move, and blocks that fall: lower than at the start by half their thinnest extent, the criterion of `Collapse`.
 class Unrest {
@@ -50,14 +54,6 @@ class Unrest {
   bool falls(int b) const { return sunk(b) > 0.5 * model_.thickness[z(b)]; }
   // Has toppled, to where it may lie at rest. Elastic structures lean by less.
   bool toppled(int b) const { return tilt(b) > far_over; }
-  // A block has begun to leave its place.
-  bool any_leaves() const {
-    for (int b = 0; b < model_.nblock; ++b)
-      if (model_.kind[z(b)] == Kind::moving &&
-          ((state_.pose.u[z(b)] - start_.u[z(b)]).norm() > leaving * model_.thickness[z(b)] || tilt(b) > leaving))
-        return true;
-    return false;
-  }
   bool moves(int b) const { return square(b) > square_; }
   // Blocks that are not where they were built: no chain of joints that have kept leads from them to the ground. What settles or leans with
   // its support has its place. Without joints, what has fallen or toppled.
@@ -80,6 +76,11 @@ class Unrest {
   bool ended() const {
     return count([&](int b) { return moves(b) && !falls(b); }).empty();
   }
+  // True if every block is at rest, or has fallen past the ground.
+  bool all_rest() const {
+    return std::ranges::includes(blocks_past_ground(model_, state_), count([&](int b) { return moves(b); }));
+  }
+  double resting_speed() const { return std::sqrt(square_); }  // m/s, at most
   std::vector<int> count(const std::function<bool(int b)>& is) const {
     std::vector<int> out;
     for (int b = 0; b < model_.nblock; ++b)
@@ -171,6 +172,14 @@ void begin_anew(const Model& m, const State& before, State& s) {
   find_islands(m, s);
 }
 
+// Bounds the speed of a block (m/s), with its spin in proportion.
+void hold_back(int b, double most, const Unrest& unrest, State& s) {
+  const double square = unrest.square(b);
+  if (!(square > most * most)) return;
+  const double part = most / std::sqrt(square);
+  s.motion.v[z(b)] *= part, s.motion.spin_momentum[z(b)] *= part, s.motion.w[z(b)] *= part;
+}
+
 // Steps of a model of the ramp from rest; velocities and time are given back, and the state that is still. `what` happens, until `most` s
 // at the latest. Returns the state before.
 State ramp(const Model& slow, Prepared& p, const std::vector<std::uint8_t>& still, int threads, const StartTold& told,
@@ -183,14 +192,14 @@ State ramp(const Model& slow, Prepared& p, const std::vector<std::uint8_t>& stil
   Solver solver(slow, s, p.range, threads);
   using Clock = std::chrono::steady_clock;
   Clock::time_point due = Clock::now();
-  solver.advance_until([&] {
+  do {
+    solver.advance({.next = s.time.t + most / looks});
     if (is_interrupted()) throw Interrupted("interrupted while the structure came to rest, before the first step; nothing is written");
     if (told && Clock::now() >= due) {
       told(fmt::format("before the run, {}: {:.2f} of at most {:.3g} s", what, s.time.t, most));
       due = Clock::now() + std::chrono::milliseconds(100);
     }
-    return ended();
-  });
+  } while (!solver.broken() && !ended());
   if (!still.empty()) Held{still, before}.give_back(p.model, s);
   begin_anew(p.model, before, s);
   return before;
@@ -211,36 +220,50 @@ void Held::give_back(const Model& m, State& s) const {
   }
 }
 
-// The weights come as if the ground accelerated downwards by g at first, and by nothing at last. What stands under the whole weight for a
-// while before it falls begins the run there: the fall belongs to the run. What falls sooner lies where it fell, for the rest of its
-// structure would begin under a part of its weight.
+// The weights come as if the ground accelerated downwards by g at first, and by nothing at last. What falls is known then, and has fallen:
+// all begins anew, and now its speed is bounded while the others take their whole weight. A drag in proportion to its mass is the gentlest
+// constraint (Gauss 1829): what bears a block feels the reaction of its first instant of free fall, with which the run goes on.
 std::vector<int> ramp_gravity(const Scene& scene, Prepared& p, const std::vector<std::uint8_t>& still, int threads, bool damp_loose,
                               const StartTold& told) {
-  const double time = duration_of(scene, p, still, {});
+  const double time = duration_of(scene, p, still, {}), most = ramp_limit * time;
+  const bool push = scene.push.quasi_static();  // asks for what comes to rest in the end
   Model slow = slow_model(p.model, time, still);
   slow.damping_all = damp_loose;
   slow.grounds = {{fading(time), p.model.gravity}};
   for (auto& load : slow.force_loads) load.wave = rising(time, value(load.wave, 0));
   const Unrest unrest(slow, p.state);
-  std::vector<int> restless, moving;
-  std::optional<State> upright;           // the last time that nothing had left its place; then these moved:
-  bool left = scene.push.quasi_static();  // a push asks for what comes to rest in the end
-  double due = time;
-  const State before = ramp(slow, p, still, threads, told, "gravity comes slowly", ramp_limit * time, [&] {
-    const double t = p.state.time.t;
-    if (!left && t >= due) {
-      due *= look_again, left = unrest.any_leaves();
-      if (!left) upright = p.state, moving = unrest.count([&](int b) { return unrest.moves(b); });
-    }
-    const bool ended = t >= time && (unrest.ended() || t >= ramp_limit * time);
+  int at_rest_for = 0;  // looks
+  const auto over = [&](const auto& at_rest) {
+    at_rest_for = p.state.time.t >= time && at_rest() ? at_rest_for + 1 : 0;
+    return p.state.time.t >= most || at_rest_for >= rests;
+  };
+  std::vector<int> restless;
+  const State before = ramp(slow, p, still, threads, told, "gravity comes slowly", most, [&] {
+    const bool ended = over([&] { return push ? unrest.all_rest() : unrest.ended(); });
     if (ended) restless = unrest.restless();
     return ended;
   });
-  if (restless.empty() || !upright || !std::ranges::includes(restless, moving)) return restless;
-  p.fallen = p.state.pose;
-  p.state = std::move(*upright);
-  if (!still.empty()) Held{still, before}.give_back(p.model, p.state);
-  begin_anew(p.model, before, p.state);
+  if (restless.empty() || push) return restless;
+  State fallen = std::exchange(p.state, before);
+  std::vector<int> held = restless;
+  for (int round = 0; round < most_rounds; ++round) {
+    std::vector<int> others;  // that do not stand under what falls while it is still there
+    ramp(slow, p, still, threads, told, "the weight of what stands comes, beside what falls", most, [&] {
+      const double share = p.state.time.t < time ? held_way / time : 0;
+      for (const int b : held) hold_back(b, std::max(share * slow.thickness[z(b)], held_rest * unrest.resting_speed()), unrest, p.state);
+      const bool ended = over([&] { return unrest.count([&](int b) { return unrest.moves(b); }).empty(); });
+      if (ended) std::ranges::set_difference(unrest.restless(), held, std::back_inserter(others));
+      return ended;
+    });
+    if (others.empty()) {
+      p.fallen = fallen.pose;
+      return held;
+    }
+    held.insert(held.end(), others.begin(), others.end());
+    std::ranges::sort(held);
+    p.state = before;
+  }
+  p.state = std::move(fallen);
   return restless;
 }
 

@@ -23,8 +23,9 @@ struct Held {
 using StartTold = std::function<void(const std::string& line)>;
 
 // Ramps gravity and constant loads, then holds them until every block that does not fall is at rest. Returns the blocks that fall, have
-// toppled or still move. If all stood for a while before, run.state is that before the fall, and run.fallen what became of it. `still`:
-// blocks that stay in place, with the joints among them [nblock]; empty: none. `damp_loose`: damps blocks without a joint too.
+// toppled or still move. Those begin the run in their place; run.fallen is what became of them. For a push, and if others do not come to
+// rest beside them, they lie where they fell. `still`: blocks that stay in place, with the joints among them [nblock]; empty: none.
+// `damp_loose`: damps blocks without a joint too.
 std::vector<int> ramp_gravity(const Scene& scene, Prepared& run, const std::vector<std::uint8_t>& still, int threads,
                               bool damp_loose = false, const StartTold& told = {});
 

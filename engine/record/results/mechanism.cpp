@@ -80,12 +80,14 @@ const char* past_tense(Movement kind, int n) {
 
 const char* word(Movement kind) { return kind == Movement::hinge ? "hinge" : kind == Movement::slide ? "slide" : "part"; }
 
-Mechanism mechanism_of(const Model& model, const BlockPoses& pose, double t) {
+Mechanism mechanism_of(const Model& model, const BlockPoses& pose, double t, const std::vector<std::uint8_t>& without) {
   Mechanism out;
   out.time = t;
   for (int j = 0; j < model.njoint; ++j) {
+    const Joint& joint = model.joint[std::size_t(j)];
+    if (!without.empty() && (without[std::size_t(joint.a)] != 0 || without[std::size_t(joint.b)] != 0)) continue;
     MovedJoint moved = moved_joint(model, pose, j);
-    if (movement(moved) > share_of_size * 2 * model.joint[std::size_t(j)].type->radius) out.moved.push_back(moved);
+    if (movement(moved) > share_of_size * 2 * joint.type->radius) out.moved.push_back(moved);
   }
   const auto guide = [&](const MovedJoint& m) { return guides(model, m); };
   if (!std::all_of(out.moved.begin(), out.moved.end(), guide)) std::erase_if(out.moved, guide);

@@ -1,5 +1,6 @@
 // Collapse mechanism, derived from block poses: which joints opened about an edge (hinge), slid, or parted.
 #pragma once
+#include <cstdint>
 #include <string>
 #include <type_traits>
 #include <vector>
@@ -35,8 +36,8 @@ void each(M& m, F&& f) {
 
 // Selects joints that moved by at least a tenth of the largest movement, and by more than a thousandth of their own size. The largest of
 // three movements gives the kind. Narrowest gap: the joint has parted. Opening: hinge. Otherwise: slide. Frictionless joints that slide,
-// as on a plane of symmetry, count only where nothing else moves.
-Mechanism mechanism_of(const Model& model, const BlockPoses& pose, double t);
+// as on a plane of symmetry, count only where nothing else moves. Joints of the blocks `without` do not count [nblock]; empty: none.
+Mechanism mechanism_of(const Model& model, const BlockPoses& pose, double t, const std::vector<std::uint8_t>& without = {});
 
 int count(const Mechanism& mechanism, Movement kind);
 

@@ -214,6 +214,31 @@ analysis{ kind = "pushover" })",
   CHECK_FALSE(got.metrics.capacity->mechanism.empty());
 }
 
+TEST_CASE("a chip that falls off before the push leaves the rest to be pushed", "[push]") {
+  const std::string column =
+      "for i = 0, 4 do box{ name = 'c' .. i, group = 'column', size = {.4, .4, .2}, at = {-.2, -.2, .2 * i} } end ";
+  const std::string chip = "box{ name = 'chip', size = {.05, .05, .05}, at = {.2, 0, .85} } ";
+  const std::string bottomless = "material{ name = 'stone', density = 2000, kn = 1e10, ks = 4e9 } "
+                                 "box{ name = 'floor', size = {.4, .4, .5}, at = {-.2, -.2, -.5}, fixed = true } ";
+  for (const std::string kind : {"pushover", "tilt"}) {
+    const std::string pushed = "joint{ law = dry{ kn = 1e10, ks = 4e9, mu = .7 } } analysis{ kind = '" + kind + "', fall = 0 }";
+    const auto capacity = [&](const std::string& text) {
+      const test::Scratch dir("push_chip");
+      const PushOutcome got = push(text + pushed, dir.path);
+      CHECK(got.metrics.status == "completed");
+      CHECK_FALSE(got.metrics.capacity->gravity_alone);
+      REQUIRE(got.metrics.capacity->limit);
+      CHECK(got.metrics.capacity->limit->dry.stands);
+      CHECK_THAT(got.metrics.capacity->mechanism, Catch::StartsWith("overturning"));
+      return got.metrics.capacity->peak.multiplier;
+    };
+    const double alone = capacity(stone + column);
+    CHECK(alone == Approx(.4).epsilon(.05));
+    CHECK(capacity(stone + column + chip) == Approx(alone).epsilon(1e-3));
+    CHECK(capacity(bottomless + column + chip) == Approx(alone).epsilon(1e-3));  // it falls for ever
+  }
+}
+
 TEST_CASE("a push draws no fall where none is wanted, and names the mechanism all the same", "[push]") {
   const auto rows = [&](const std::string& fall) {
     const test::Scratch out("push_fall" + fall);

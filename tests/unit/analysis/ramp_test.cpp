@@ -39,13 +39,13 @@ double tilt(const BlockPoses& pose, std::size_t b) { return Quat(pose.q[b]).angu
 
 }  // namespace
 
-TEST_CASE("a block that topples begins the run before it has left its place, and nothing strikes then", "[analysis]") {
+TEST_CASE("a block that topples begins the run in its place, and nothing strikes then", "[analysis]") {
   for (const char* start : {"equilibrium", "ramp"}) {
     CAPTURE(start);
     Prepared run = toppling(start);
     const std::size_t tall = index_of(run.model, "tall");
     REQUIRE(run.fallers == std::vector<int>{int(tall)});
-    CHECK(tilt(run.state.pose, tall) < 0.06);
+    CHECK(tilt(run.state.pose, tall) < 0.02);
     REQUIRE(run.fallen);
     CHECK(tilt(*run.fallen, tall) > 0.5);  // rad, there it lies on the floor
     const BlockVec3 before = run.state.pose.u;
@@ -58,10 +58,10 @@ TEST_CASE("a block that topples begins the run before it has left its place, and
   }
 }
 
-TEST_CASE("blocks of any size that topple under their whole weight begin the run in their place", "[analysis]") {
+TEST_CASE("blocks of any size that topple begin the run in their place", "[analysis]") {
   for (const double height : {0.2, 1., 10.})
-    for (const double kn : {1e10, 1e12})
-      for (const double over : {0.02, 0.1}) {  // of its width, past the edge
+    for (const double kn : {1e8, 1e10, 1e12})
+      for (const double over : {0.02, 0.1, 0.3}) {  // of its width, past the edge
         CAPTURE(height, kn, over);
         const double width = 0.2 * height;
         const Prepared run =
