@@ -106,8 +106,8 @@ bool FormerJoints::soften(const ContactSettings& settings, const Sleep& sleep, d
     const double kn = std::max(to.kn, at_once * p.law.kn) / p.law.kn, ks = std::max(to.ks, at_once * p.law.ks) / p.law.ks;
     p.law.kn *= kn;
     p.law.ks *= ks;
+    (fades ? crushing_ : reset_energy_) += (1 - kn) * now.elastic + (1 - ks) * p.tangential;  // not what a pair at rest would store (`now`)
     p.tangential *= ks;
-    (fades ? crushing_ : reset_energy_) += (1 - kn) * now.elastic + (1 - ks) * now.tangential;
     // The lost part of the force still does half a step of work on the way to the next pose, as friction does.
     p.friction.force += (1 - kn) * (now.wrench.force - copy.friction.force);
     p.friction.moment_a += (1 - kn) * (now.wrench.moment_a - copy.friction.moment_a);

@@ -81,3 +81,25 @@ TEST_CASE("a bed fades at the same rate whatever the step", "[joints]") {
     CHECK(std::log(before / after) * Fading::fade_time == Approx(late.state.time.t - early.state.time.t).epsilon(.1));
   }
 }
+
+TEST_CASE("a block that slides from its bed keeps the ledger while its contact fades", "[joints]") {
+  for (const double kn : {1e6, 1e7, 1e9})
+    for (const double part : {.5, .1})
+      for (const double friction : {.1, .7}) {
+        CAPTURE(kn, part, friction);
+        Script script(Script::Options{.quiet = true});
+        const Scene scene = script.load_text(
+            fmt::format("gravity(g) material{{ name = 'stone', density = 2000, kn = 1e10 }} ground{{ size = 10 }}"
+                        "box{{ name = 'b', size = {{.3, .2, .3}}, at = {{0, 0, 0}}, initial = {{ velocity = {{1, 0, 0}} }} }}"
+                        "joint{{ law = mortar{{ kn = {0}, ks = {1}, ft = 100, c = 100, mu = {3}, kn_cracked = {0} * {2}, ks_cracked = {1} "
+                        "* {2} }} }}"
+                        "analysis{{ duration = 1 }}",
+                        kn, .4 * kn, part, friction),
+            "slide.lua", {});
+        Prepared run;
+        test::run_to(scene, 1, 0.1, run);
+        REQUIRE(run.state.joints.stage.front() == JointStage::contact);
+        CHECK(run.state.energy.crushing > 0);
+        CHECK(run.state.energy.residual_worst < 2e-5);
+      }
+}
