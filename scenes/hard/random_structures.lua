@@ -34,15 +34,12 @@ local blocks, height, volume, slope = built.blocks, built.height, built.volume, 
 
 -- Mortar that a bump may crack: its strength is of the order of the stresses in the structure.
 local cracks = chance(0.3)
-local law
+local bed
 if cracks then
   local ft = density * g * height * log_uniform(0.1, 3)
   local brittle = chance(0.5)
-  law = mortar { kn = kn, ks = 0.4 * kn, ft = ft, c = ft * uniform(1, 2), mu = mu, Gf1 = brittle and 0 or ft ^ 2 / kn * uniform(1, 5), Gf2 = brittle and 0 or 4 * ft ^ 2 / kn * uniform(1, 5) }
-else
-  law = dry { kn = kn, mu = mu }
+  bed = { kn = kn, ks = 0.4 * kn, ft = ft, c = ft * uniform(1, 2), mu = mu, Gf1 = brittle and 0 or ft ^ 2 / kn * uniform(1, 5), Gf2 = brittle and 0 or 4 * ft ^ 2 / kn * uniform(1, 5) }
 end
-joint { law = law }
 
 local heading, up, over = uniform(0, 2 * pi), uniform(-1, 1), nil
 if chance(0.5) then  -- a bump in any direction
@@ -56,6 +53,11 @@ else
   ground_motion { wave = sine { amplitude = uniform(0.1, 0.8) * g, frequency = frequency, start = 0.05, duration = cycles / frequency }, direction = { math.cos(heading), math.sin(heading), 0.3 * up } }
 end
 local start = chance(0.15) and "rest" or chance(0.15) and "ramp" or "equilibrium"
+if cracks and chance(0.4) then  -- softer once the bond is gone
+  bed.kn_cracked = kn * log_uniform(0.02, 1)
+  bed.ks_cracked = 0.4 * (chance(0.5) and bed.kn_cracked or kn * log_uniform(0.02, 1))
+end
+joint { law = cracks and mortar(bed) or dry { kn = kn, mu = mu } }
 
 for _, name in ipairs(blocks) do recorder { name = name, quantity = "displacement", block = name } end
 recorder { name = "all", quantity = "opening", blocks = blocks }
