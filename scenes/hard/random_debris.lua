@@ -150,6 +150,7 @@ else
   n = math.max(1, n // 8)
   local l, w, h = base * 2, base, base * uniform(0.5, 0.9)
   local ft = log_uniform(1e4, 1e6)
+  local softer = seed % 3 == 0 and 0.1 * kn or 0  -- once the bond is gone
   for f = 1, n do
     local courses, bricks = whole(2, 4), whole(1, 3)
     local spin, velocity = times(log_uniform(0.1, 5), direction()), { uniform(-2, 2), uniform(-2, 2), uniform(-6, 0) }
@@ -168,7 +169,7 @@ else
         end
       end
     end }
-    joint { between = { "f" .. f, "f" .. f }, law = mortar { kn = kn, ks = 0.4 * kn, ft = ft, c = 1.5 * ft, mu = 0.6, Gf1 = chance(0.5) and 0 or ft ^ 2 / kn * uniform(1, 5) } }
+    joint { between = { "f" .. f, "f" .. f }, law = mortar { kn = kn, ks = 0.4 * kn, ft = ft, c = 1.5 * ft, mu = 0.6, Gf1 = chance(0.5) and 0 or ft ^ 2 / kn * uniform(1, 5), kn_cracked = softer, ks_cracked = 0.4 * softer } }
   end
   ends = 2
 end
