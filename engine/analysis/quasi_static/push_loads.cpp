@@ -75,11 +75,12 @@ std::vector<Vec3> PushLoads::slope() const {
 
 Vec3 PushLoads::weight(int b) const { return weight_mass(model_, b) * acceleration_; }
 
-MonitorPoint::MonitorPoint(const PushSettings& push, const Model& m) : arm_(Vec3::Zero()), direction_(push.direction) {
+MonitorPoint::MonitorPoint(const PushSettings& push, const Model& m, const std::vector<std::uint8_t>& fell)
+    : arm_(Vec3::Zero()), direction_(push.direction) {
   const Vec3 up = m.gravity.norm() > 0 ? Vec3(-m.gravity.normalized()) : Vec3::UnitZ();
   double highest = -1e300;
   for (int b = 0; b < m.nblock; ++b) {
-    if (m.kind[z(b)] != Kind::moving) continue;
+    if (m.kind[z(b)] != Kind::moving || (fell[z(b)] != 0 && push.monitor.block.empty())) continue;
     const double height = push.monitor.block.empty() ? up.dot(m.rest[z(b)]) : m.block_name[z(b)] == push.monitor.block ? 1 : 0;
     if (height > highest) highest = height, block_ = b;
   }

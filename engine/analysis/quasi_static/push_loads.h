@@ -28,10 +28,10 @@ class PushLoads {
   Vec3 acceleration_ = Vec3::Zero();  // m/s2, on every block
 };
 
-// The monitored point of a push.
+// The monitored point of a push; if none is named, the centroid of the highest block that has not fallen off before it (`fell`).
 class MonitorPoint {
  public:
-  MonitorPoint(const PushSettings& push, const Model& model);
+  MonitorPoint(const PushSettings& push, const Model& model, const std::vector<std::uint8_t>& fell);
   Vec3 displacement(const BlockPoses& pose) const;  // m
   double along(const BlockPoses& pose) const { return displacement(pose).dot(direction_); }
   int block() const { return block_; }

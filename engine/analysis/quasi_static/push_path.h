@@ -105,6 +105,11 @@ void each(P& p, F&& f) {
 template <class P, class F>
 requires std::is_same_v<std::remove_const_t<P>, MachinePath>
 void each(P& p, F&& f) {
+  f("machine_end", p.end);
+  f("machine_step", p.step);
+  f("machine_soft", p.soft);
+  f("machine_stiff", p.stiff);
+  f("machine_bracket", p.bracket);
   f("machine_stiffness", p.stiffness);
   f("machine_extension", p.extension);
   f("machine_multiplier", p.multiplier);

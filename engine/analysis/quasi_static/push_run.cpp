@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "engine/analysis/lost_blocks.h"
 #include "engine/analysis/quasi_static/limit_beside.h"
@@ -80,11 +81,9 @@ void PushRun::begin() {
   const double dt = run_.state.time.dt;
   key_ = checkpoint_key(scene_, script_, dt, options_.override_arguments);
   so_far_.path = LoadPath(push_);
-  const BlockVec3 built = run_.state.pose.u;
+  const State intact = run_.state;
   WriterProgress written;
   for (const Block& block : scene_.blocks) group_.push_back(block.group);
-  relaxation_.emplace(push_, group_, run_, options_.threads);  // of the intact structure, so that a resumed push has the same
-  so_far_.machine = relaxation_->loading_machine();
   if (resume) {
     const std::vector<std::size_t> sizes = sizes_of(run_.state);
     read_checkpoint(options_.directory, key_, run_.state, written, collapse_, so_far_);
@@ -96,9 +95,13 @@ void PushRun::begin() {
     collapse_ = watch_collapse(run_.model, run_.state.pose);
     gravity_alone_ = falling_share(run_) >= scene_.analysis.collapse_fraction;
     so_far_.fell.assign(z(run_.model.nblock), 0);
-    for (const int b : run_.fallers) collapse_.start[z(b)] = built[z(b)].z(), so_far_.fell[z(b)] = !gravity_alone_;
+    for (const int b : run_.fallers) collapse_.start[z(b)] = intact.pose.u[z(b)].z(), so_far_.fell[z(b)] = !gravity_alone_;
   }
-  relaxation_->leave_out(blocks_past_ground(run_.model, run_.state));
+  State loaded = std::exchange(run_.state, intact);
+  relaxation_.emplace(push_, group_, run_, so_far_.fell, options_.threads);  // of the intact structure: a resumed push has the same
+  run_.state = std::move(loaded);
+  relaxation_->hold(blocks_past_ground(run_.model, run_.state));
+  if (!resume) so_far_.machine = relaxation_->loading_machine();
   Manifest manifest = manifest_of_run(scene_, script_, run_, options_);
   manifest.dt = dt;
   const Recorders wanted(scene_, run_.model);  // reports columns of equal names before anything is written
@@ -283,12 +286,12 @@ void PushRun::fall(bool drawn) {
   if (out_.metrics.status != "completed") return;
   if (!named) name();
   if (!drawn) return;
-  collapse_.mechanism = joints;
   relaxation_->release(run_.state, push_.fall, scene_.analysis.frame_dt, [&](const Solver& solver, const Relaxed&) {
     frame(solver);
     fall_ = fmt::format("it falls: {:.2f} of {:.4g} s", run_.state.time.t, push_.fall);
     return !collapse_.collapsed && !interrupted();
   });
+  collapse_.mechanism = joints;
 }
 
 void PushRun::assess() {

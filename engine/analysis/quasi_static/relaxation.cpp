@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/analysis/quasi_static/damper.h"
 #include "engine/analysis/start/elastic_push.h"
 #include "engine/base/count.h"
 #include "engine/base/error.h"
@@ -24,20 +25,12 @@ constexpr double finer = 3, finest = 27;
 constexpr double far_away = 0.5;
 // A block that moves by so many times the displacement of the monitored point hangs on no lever that a loading machine holds.
 constexpr double longest_lever = 30;
-constexpr double local_share = 0.8;
 // Of the limit of the step, with local damping: forces count 1 + local_share times against the motion. That leaves 4 / 1.8 for springs and
 // for the dashpots of contacts, which at their cap take 4 / 3 of the 4 (time_step_bound.cpp).
 constexpr double local_step = 0.47;
 // Joined neighbours that meet along an edge: thousands of strips of a micron's slip would each cost as much as a joint.
 constexpr double edge_force = 0.1;
 constexpr int release_rarely = 128;  // steps, where thousands of joints open one by one: an open one may wait
-// Of critical damping: least shares of that of the elastic structure, since next to its capacity a stack on hinges swings thousands of
-// times as slowly, and while it cracks; share of the way to it, in a reading.
-constexpr double least_share = 1e-4, cracking_share = 0.01, follows = 0.3;
-// Beside kinetic and critical damping, with a coarse inertia or once a relaxation takes longer than this many periods. Cracks leave short
-// waves that fill the whole structure at random phases: its kinetic energy has no peaks then, and they would never be braked. The step is
-// short enough for it: 0.9 sqrt(1.1) < 1.
-constexpr double local_share_beside = 0.1, patience = 10;
 // A coarse inertia: period of its pieces in steps; where it is used, the structure's over that; blocks of a piece, and pieces, so that
 // their factors stay small beside a step.
 constexpr double quick_steps = 40, slow = 10;
@@ -46,100 +39,6 @@ constexpr int control_every = 4;                         // steps between two re
 constexpr double controlled_steps = 40 * control_every;  // at least, in a period of the pieces with the loading machine
 constexpr double longest_lag = 0.5;                      // rad, of the swing on the loading machine, between two readings
 constexpr double default_step_count = 50;                // steps in a period where the structure has no elastic one
-
-// Damping on the way to equilibrium, by name.
-// critical: mass damping of twice the circular frequency w; while the load grows, that of the elastic structure with its loading machine,
-//   then that of the present motion. Rayleigh's quotient of what moved since the last reading gives it (Underwood 1983, Dynamic
-//   relaxation): w^2 = -du . M da / du . M du, a the accelerations of the unbalanced forces and of the coarse inertia. The coefficient goes
-//   a third of the way there, on a scale of ratios. Where cracks release more than the motion stores, w^2 is negative, and the coefficient
-//   falls to the share of cracking; what still moves after `patience` periods is slower than they are long, and it falls on as 1 / t.
-// kinetic: velocities vanish at each peak of the kinetic energy (Cundall 1976; Barnes 1988).
-// Beside both acts a local force of a tenth, with a coarse inertia or where the rest does not lead to equilibrium soon.
-// adaptive: mass damping whose power is held near half the rate of change of the kinetic energy (Cundall 1982, "adaptive global damping").
-//   Here the coefficient changes by a tenth where the ratio is off.
-// local: a force of 0.8 times the unbalanced one against the motion (Cundall 1987), with a shorter step.
-class Damper {
- public:
-  // `faster`: by how much the loading machine raises the frequency. `swing`: 1/s, of the structure on the machine alone.
-  Damper(const std::string& name, double period, double faster, double swing, bool at_once, Model& model)
-      : model_(model),
-        period_(period),
-        most_(4 * pi / period * faster),
-        least_(std::min(std::max(least_share * most_, 2 * swing), most_)),
-        patience_(at_once ? 0 : patience * period),
-        adaptive_(name == "adaptive"),
-        kinetic_(name == "kinetic"),
-        critical_(name == "critical") {
-    model.damping_all = true, model.damping_explicit = false;
-    model.damping.mass = critical_ ? most_ : adaptive_ ? 0.3 * most_ : 0;
-    model.local_damping = name == "local" ? local_share : 0;
-  }
-
-  void read(State& s) {
-    const double kinetic = s.energy.kinetic, lost = s.energy.damping;
-    if (adaptive_) {
-      const bool strong = lost - lost_ > 0.5 * std::fabs(kinetic - kinetic_before_);
-      double& a = model_.damping.mass;
-      a = std::clamp(strong ? a / 1.1 : a * 1.1, 1e-4 * most_, most_);
-    }
-    brakes_ = kinetic_ && kinetic < kinetic_before_ && !brakes_;
-    if (kinetic_) model_.damping.mass = brakes_ ? braking(s) : 0;
-    if ((kinetic_ || critical_) && s.time.t > patience_) model_.local_damping = local_share_beside;
-    kinetic_before_ = brakes_ ? 0 : kinetic;
-    lost_ = s.energy.damping;
-  }
-  // At a sample. `unbalanced`: N, of each block, with the share of a coarse inertia. `ramp`: the load is changing, which the quotient would
-  // take for a negative stiffness.
-  void read(const State& s, const std::vector<Vec3>& unbalanced, bool ramp) {
-    if (!critical_) return;
-    double power = 0, size = 0;
-    for (int b = 0; b < model_.nblock && !force_.empty() && !ramp; ++b) {
-      if (model_.kind[z(b)] != Kind::moving) continue;
-      const Vec3 moved = s.pose.u[z(b)] - u_[z(b)];
-      power += (force_[z(b)] - unbalanced[z(b)]).dot(moved);
-      size += model_.mass[z(b)] * moved.squaredNorm();
-    }
-    if (size > 0) {
-      const double cracking = std::max(std::min(patience * period_ / s.time.t, 1.0) * cracking_share * most_, least_);
-      const double to = power > 0 ? std::clamp(2 * std::sqrt(power / size), least_, most_) : cracking;
-      model_.damping.mass *= std::pow(to / model_.damping.mass, follows);
-    }
-    u_ = s.pose.u;
-    force_ = unbalanced;
-  }
-  bool one_step() const { return brakes_; }  // until the next reading
-
-  // Before motion is taken away: the ledger of a step that leaves next to none closes, whatever forces acted.
-  void last_step(State& s, Solver& solver) {
-    model_.damping.mass = braking(s);
-    solver.advance({.next = s.time.t});
-  }
-  // Takes the motion away; its energy counts as damping.
-  static void stop(State& s, const Model& m) {
-    for (int b = 0; b < m.nblock; ++b) {
-      const Vec3 v = s.motion.v[z(b)];
-      if (m.kind[z(b)] == Kind::moving)
-        s.energy.damping += 0.5 * (m.mass[z(b)] * v.squaredNorm() + s.motion.w[z(b)].dot(Vec3(s.motion.spin_momentum[z(b)])));
-    }
-    s.motion.v.assign(s.motion.v.size(), Vec3::Zero());
-    s.motion.spin_momentum.assign(s.motion.spin_momentum.size(), Vec3::Zero());
-    s.motion.w.assign(s.motion.w.size(), Vec3::Zero());
-  }
-
- private:
-  static double braking(const State& s) { return 2 / s.time.dt; }  // 1/s, leaves no velocity after one step
-
-  Model& model_;
-  const double period_;    // s
-  const double most_;      // 1/s, critical damping of the lowest mode
-  const double least_;     // 1/s; with a machine, what breaks loose does not swing beyond where friction holds it
-  const double patience_;  // s, until short waves are braked as well
-  const bool adaptive_, kinetic_, critical_;
-  bool brakes_ = false;
-  double kinetic_before_ = 0, lost_ = 0;
-  BlockVec3 u_;              // m, at the last reading
-  std::vector<Vec3> force_;  // N, then
-};
 
 double smooth(double x) { return x >= 1 ? 1 : x * x * (3 - 2 * x); }
 
@@ -169,8 +68,15 @@ void refuse_floating(const Prepared& run, const Place& place) {
               place);
 }
 
-Relaxation::Relaxation(const PushSettings& push, const std::vector<std::string>& groups, const Prepared& run, int threads)
-    : push_(push), run_(run), crew_(threads), model_(run.model), loads_(push, groups, model_), monitor_(push, run.model) {
+Relaxation::Relaxation(const PushSettings& push, const std::vector<std::string>& groups, const Prepared& run,
+                       std::vector<std::uint8_t> fell, int threads)
+    : push_(push),
+      run_(run),
+      fell_(std::move(fell)),
+      crew_(threads),
+      model_(run.model),
+      loads_(push, groups, model_),
+      monitor_(push, run.model, fell_) {
   true_dt_ = dt_ = run.state.time.dt;
   // Nothing hops on the way to equilibrium. The mean pressure of the interlock would hold unloading beds for seconds, thousands of steps.
   model_.settles.clear();
@@ -271,13 +177,21 @@ std::array<double, 2> Relaxation::mean_forces(const Solver& solver) {
   double unbalanced = 0, applied = 0;
   unbalanced_.resize(z(model_.nblock));
   for (int b = 0; b < model_.nblock; ++b) {
-    if (model_.kind[z(b)] != Kind::moving) continue;
+    unbalanced_[z(b)].setZero();
+    if (!counts(b)) continue;
     const Vec3 weight = loads_.weight(b), load = weight + now.load_wrench[z(b)].head<3>(), all = load + now.block_wrench[z(b)].head<3>();
     unbalanced += all.norm();
     applied += std::max(load.norm(), weight.norm());  // a push against gravity may leave no load
     unbalanced_[z(b)] = inertia_ ? all + inertia_->force(b) : all;
   }
   return {unbalanced, applied};
+}
+
+double Relaxation::kinetic(const State& s) const {
+  double sum = 0;
+  for (int b = 0; b < model_.nblock; ++b)
+    if (counts(b)) sum += 0.5 * (model_.mass[z(b)] * s.motion.v[z(b)].squaredNorm() + s.motion.w[z(b)].dot(s.motion.spin_momentum[z(b)]));
+  return sum;
 }
 
 Vec3 Relaxation::reaction(const Solver& solver) const {
@@ -291,7 +205,7 @@ bool Relaxation::far(const State& s, const BlockVec3& from, double share, double
   out.moved = 0;
   bool far = false;
   for (int b = 0; b < model_.nblock; ++b) {
-    if (model_.kind[z(b)] != Kind::moving) continue;
+    if (!counts(b)) continue;
     const double moved = (s.pose.u[z(b)] - from[z(b)]).norm();
     far = far || moved > std::max(share * model_.thickness[z(b)], least);
     if (moved > out.moved) out.moved = moved, out.furthest = b;
@@ -321,7 +235,7 @@ Relaxed Relaxation::relax(State& s, const LoadCourse& course, const Seen& seen, 
   const BlockVec3 from = s.pose.u;
   const double monitored = monitor_.along(s.pose);
   const double held = machine ? machine_ : 1;
-  Damper damper(push_.relaxation, period_, std::sqrt(held), std::sqrt((held - 1) * loaded_rate_), inertia_.has_value(), model_);
+  Damper damper(push_.relaxation, period_, std::sqrt(held), std::sqrt((held - 1) * loaded_rate_), inertia_.has_value(), fell_, model_);
   std::optional<Solver> solver;
   engage(solver, model_, s, range);
   const double check = std::max(period_ / checks, least_check * dt_);
@@ -345,8 +259,9 @@ Relaxed Relaxation::relax(State& s, const LoadCourse& course, const Seen& seen, 
     damper.read(s, unbalanced_, done < 1);
     out.unbalanced = applied > 0 ? unbalanced / applied : 0;
     balanced = done > 1 && out.unbalanced <= push_.unbalanced ? balanced + 1 : 0;
-    const bool speeds_up = s.energy.kinetic >= fastest;
-    fastest = std::max(fastest, s.energy.kinetic);
+    const double energy = kinetic(s);
+    const bool speeds_up = energy >= fastest;
+    fastest = std::max(fastest, energy);
     const double least = machine ? longest_lever * std::fabs(monitor_.along(s.pose) - monitored) : 0;  // m
     if (far(s, from, speeds_up && way == Way::to_rest ? gone : far_away, least, out)) out.ending = Ending::collapse;
     else if (balanced >= balanced_checks)

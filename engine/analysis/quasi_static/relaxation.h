@@ -46,8 +46,10 @@ class Relaxation {
  public:
   static constexpr double ledger_tolerance = 1e-2;  // relative, of the energy ledger of all relaxations
   static constexpr double gone = 0.1;               // of a block's smallest edge: it falls if it has moved so far and still gains speed
-  // `run` as prepared, unloaded; it outlives this object, whose model is a copy with masses of its own. `groups`: of each block.
-  Relaxation(const PushSettings& push, const std::vector<std::string>& groups, const Prepared& run, int threads);
+  // `run` as prepared, unloaded; it outlives this object, whose model is a copy with masses of its own. `groups`: of each block. `fell`:
+  // blocks that had fallen off before the push; they lie about and do not count [nblock].
+  Relaxation(const PushSettings& push, const std::vector<std::string>& groups, const Prepared& run, std::vector<std::uint8_t> fell,
+             int threads);
 
   // Ramps the loads over one period of the structure, then holds them. `seen` is called some times a period, with the solver at a sample;
   // it returns false to stop. `with_machine`: the load follows the monitored point. `falling`: a block must move far before this is a
@@ -70,7 +72,7 @@ class Relaxation {
   const Profile& profile() const { return profile_; }  // of all relaxations
   double searched() const { return searched_; }        // s, for contacts in them
   long steps() const { return steps_; }                // of all that have ended
-  void leave_out(const std::vector<int>& blocks) {  // what falls for ever and has no equilibrium
+  void hold(const std::vector<int>& blocks) {          // what falls for ever
     for (const int b : blocks) model_.kind[std::size_t(b)] = Kind::fixed;
   }
   void set_load(double multiplier) { loads_.set(multiplier); }
@@ -86,6 +88,8 @@ class Relaxation {
   void soften_inertia();
   void take_machine(const Freedom& freedom);
   double quick_rate() const;  // 1/s2, that of the coarse inertia at the present step
+  bool counts(int b) const { return model_.kind[std::size_t(b)] == Kind::moving && fell_[std::size_t(b)] == 0; }
+  double kinetic(const State& state) const;  // J, of what counts
   void start(State& state, double dt) const;
   void end(State& state) const;
   // Whether a block has moved by this share of its smallest edge, and by `least` (m).
@@ -93,6 +97,7 @@ class Relaxation {
 
   const PushSettings push_;
   const Prepared& run_;
+  const std::vector<std::uint8_t> fell_;
   Crew crew_;
   long steps_ = 0;
   Model model_;

@@ -24,6 +24,15 @@ std::vector<double> constant_loads(const Model& m, const State& s) {
   return loads;
 }
 
+// Warns of what does not stand where it was built.
+void take_note(const Unsteady& of, Prepared& p) {
+  p.fallers = of.falls;
+  if (!of.falls.empty()) p.warnings.push_back("not at rest under its own weight: " + names_of(p.model, of.falls));
+  std::vector<int> rests;
+  std::ranges::set_difference(of.moved, of.falls, std::back_inserter(rests));
+  if (!rests.empty()) p.warnings.push_back("slides or leans under its own weight until it rests: " + names_of(p.model, rests));
+}
+
 // Islands without equilibrium, and what loose blocks prop, load or tie to them: all of it as it was built at first. The others stay still:
 // those in equilibrium, and those that no joint connects to the ground. What has got its weight here does not count as resting any more.
 void ramp_the_rest(const Scene& scene, Prepared& p, Resting& resting, const std::optional<State>& built, int threads,
@@ -37,7 +46,7 @@ void ramp_the_rest(const Scene& scene, Prepared& p, Resting& resting, const std:
     if (tied[z(b)] != 0 && !grounded) loose.push_back(b);
   }
   if (built) Held{tied, *built}.give_back(p.model, p.state);
-  p.fallers = ramp_gravity(scene, p, still, threads, !loose.empty(), told);
+  take_note(ramp_gravity(scene, p, still, threads, !loose.empty(), told), p);
   resting.drop(loose);
 }
 
@@ -61,10 +70,6 @@ void lower_onto_structure(const Scene& scene, Prepared& p, Resting resting, int 
     p.warnings.push_back(
         "what lies on the structure without a joint does not come to rest on it and starts as it is built, its weight at once: " +
         names_of(p.model, sudden));
-}
-
-void warn_of_fallers(Prepared& p) {
-  if (!p.fallers.empty()) p.warnings.push_back("not at rest under its own weight: " + names_of(p.model, p.fallers));
 }
 
 }  // namespace
@@ -91,11 +96,10 @@ void start_at_rest(const Scene& scene, Prepared& p, int threads, const StartTold
     }
     if (resting.any()) lower_onto_structure(scene, p, resting, threads, told);
   } else if (scene.analysis.start == "ramp" && p.model.njoint > 0) {
-    p.fallers = ramp_gravity(scene, p, {}, threads, false, told);
+    take_note(ramp_gravity(scene, p, {}, threads, false, told), p);
   }
   p.model.gravity = upright;
   p.equilibrium_wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
-  warn_of_fallers(p);
   update_all_references(p.model, p.state);
   return_free_memory();
 }

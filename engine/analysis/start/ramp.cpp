@@ -8,6 +8,7 @@
 
 #include "engine/analysis/lost_blocks.h"
 #include "engine/analysis/start/elastic_push.h"
+#include "engine/analysis/start/held_back.h"
 #include "engine/base/count.h"
 #include "engine/base/error.h"
 #include "engine/base/system/interrupt.h"
@@ -32,9 +33,9 @@ constexpr int stages = 3;
 // a tenth of a millimetre during a shock.
 constexpr double rest_energy = 1e-8;
 constexpr double far_over = 0.05;  // rad
-// How far what falls is let while it is held back: of its thickness, in the time of the ramp. After it, speed over that at rest.
-constexpr double held_way = 0.02, held_rest = 0.5;
-constexpr double looks = 25000;  // at a ramp, in its longest time, or after every step
+// What falls, while it is held back: of its thickness, how far it may come in the time of the ramp; a twentieth of it as long after it.
+constexpr double held_way = 0.01;
+constexpr double looks = 25000;  // at a ramp, in its longest time
 constexpr int rests = 10;        // looks at rest one after the other: what bounces is at rest for an instant
 constexpr int most_rounds = 4;   // of holding back, each with the blocks that would not stand in the one before
 
@@ -80,7 +81,17 @@ class Unrest {
   bool all_rest() const {
     return std::ranges::includes(blocks_past_ground(model_, state_), count([&](int b) { return moves(b); }));
   }
-  double resting_speed() const { return std::sqrt(square_); }  // m/s, at most
+  // Of these, what does not come to rest, or only after a fall; the others have slid or leaned to where they rest.
+  std::vector<int> falling(const std::vector<int>& of) const {
+    return count([&](int b) { return (moves(b) || falls(b)) && std::ranges::binary_search(of, b); });
+  }
+  double share_of_mass(const std::vector<int>& blocks) const {
+    double all = 0, share = 0;
+    for (int b = 0; b < model_.nblock; ++b)
+      if (model_.kind[z(b)] == Kind::moving) all += model_.mass[z(b)];
+    for (const int b : blocks) share += model_.mass[z(b)] / all;
+    return share;
+  }
   std::vector<int> count(const std::function<bool(int b)>& is) const {
     std::vector<int> out;
     for (int b = 0; b < model_.nblock; ++b)
@@ -172,18 +183,10 @@ void begin_anew(const Model& m, const State& before, State& s) {
   find_islands(m, s);
 }
 
-// Bounds the speed of a block (m/s), with its spin in proportion.
-void hold_back(int b, double most, const Unrest& unrest, State& s) {
-  const double square = unrest.square(b);
-  if (!(square > most * most)) return;
-  const double part = most / std::sqrt(square);
-  s.motion.v[z(b)] *= part, s.motion.spin_momentum[z(b)] *= part, s.motion.w[z(b)] *= part;
-}
-
 // Steps of a model of the ramp from rest; velocities and time are given back, and the state that is still. `what` happens, until `most` s
 // at the latest. Returns the state before.
 State ramp(const Model& slow, Prepared& p, const std::vector<std::uint8_t>& still, int threads, const StartTold& told,
-           const std::string& what, double most, const std::function<bool()>& ended) {
+           const std::string& what, double most, const std::function<bool()>& ended, bool every_step = false) {
   State& s = p.state;
   State before = s;
   s.motion.v.assign(s.motion.v.size(), Vec3::Zero());
@@ -192,8 +195,10 @@ State ramp(const Model& slow, Prepared& p, const std::vector<std::uint8_t>& stil
   Solver solver(slow, s, p.range, threads);
   using Clock = std::chrono::steady_clock;
   Clock::time_point due = Clock::now();
+  double next = 0;  // s
   do {
-    solver.advance({.next = s.time.t + most / looks});
+    next = s.time.t + (every_step ? 0 : most / looks);
+    while (solver.advance({.next = next}) == Solver::Stop::ledger) continue;
     if (is_interrupted()) throw Interrupted("interrupted while the structure came to rest, before the first step; nothing is written");
     if (told && Clock::now() >= due) {
       told(fmt::format("before the run, {}: {:.2f} of at most {:.3g} s", what, s.time.t, most));
@@ -205,7 +210,41 @@ State ramp(const Model& slow, Prepared& p, const std::vector<std::uint8_t>& stil
   return before;
 }
 
+// The weights come as if the ground accelerated downwards by g at first, and by nothing at last.
+Model gravity_model(const Prepared& p, double time, const std::vector<std::uint8_t>& still, bool damp_loose) {
+  Model slow = slow_model(p.model, time, still);
+  slow.damping_all = damp_loose;
+  slow.grounds = {{fading(time), p.model.gravity}};
+  for (auto& load : slow.force_loads) load.wave = rising(time, value(load.wave, 0));
+  return slow;
+}
+
+// True after the ramp, once all is at rest at some looks one after the other, or after the longest time.
+class Over {
+ public:
+  Over(const State& s, double time) : state_(s), time_(time) {}
+  template <class F>
+  bool operator()(F&& at_rest) {
+    for_ = state_.time.t >= time_ && at_rest() ? for_ + 1 : 0;
+    return for_ >= rests || state_.time.t >= ramp_limit * time_;
+  }
+
+ private:
+  const State& state_;
+  const double time_;
+  int for_ = 0;
+};
+
 }  // namespace
+
+Unsteady& Unsteady::operator+=(const Unsteady& more) {
+  const auto add = [](std::vector<int>& to, const std::vector<int>& from) {
+    to.insert(to.end(), from.begin(), from.end());
+    std::ranges::sort(to);
+  };
+  add(moved, more.moved), add(falls, more.falls);
+  return *this;
+}
 
 void Held::give_back(const Model& m, State& s) const {
   const auto holds = [&](int b) { return block[z(b)] || m.kind[z(b)] != Kind::moving; };
@@ -220,51 +259,55 @@ void Held::give_back(const Model& m, State& s) const {
   }
 }
 
-// The weights come as if the ground accelerated downwards by g at first, and by nothing at last. What falls is known then, and has fallen:
-// all begins anew, and now its speed is bounded while the others take their whole weight. A drag in proportion to its mass is the gentlest
-// constraint (Gauss 1829): what bears a block feels the reaction of its first instant of free fall, with which the run goes on.
-std::vector<int> ramp_gravity(const Scene& scene, Prepared& p, const std::vector<std::uint8_t>& still, int threads, bool damp_loose,
-                              const StartTold& told) {
-  const double time = duration_of(scene, p, still, {}), most = ramp_limit * time;
-  const bool push = scene.push.quasi_static();  // asks for what comes to rest in the end
-  Model slow = slow_model(p.model, time, still);
-  slow.damping_all = damp_loose;
-  slow.grounds = {{fading(time), p.model.gravity}};
-  for (auto& load : slow.force_loads) load.wave = rising(time, value(load.wave, 0));
-  const Unrest unrest(slow, p.state);
-  int at_rest_for = 0;  // looks
-  const auto over = [&](const auto& at_rest) {
-    at_rest_for = p.state.time.t >= time && at_rest() ? at_rest_for + 1 : 0;
-    return p.state.time.t >= most || at_rest_for >= rests;
+// What falls is known after a first ramp, and has fallen. Then all begins anew, at the pace of what stands, and what falls is held back
+// while the others take their whole weight.
+Unsteady ramp_gravity(const Scene& scene, Prepared& p, const std::vector<std::uint8_t>& still, int threads, bool damp_loose,
+                      const StartTold& told) {
+  const double time = duration_of(scene, p, still, {});
+  const bool push = scene.push.quasi_static();  // asks for what comes to rest in the end, if only a small part falls
+  const Model first = gravity_model(p, time, still, damp_loose);
+  const Unrest unrest(first, p.state);
+  Over over(p.state, time);
+  Unsteady out;
+  const auto rests = [&] {
+    return unrest.ended() &&
+           (!push || unrest.all_rest() || unrest.share_of_mass(unrest.falling(unrest.restless())) >= scene.analysis.collapse_fraction);
   };
-  std::vector<int> restless;
-  const State before = ramp(slow, p, still, threads, told, "gravity comes slowly", most, [&] {
-    const bool ended = over([&] { return push ? unrest.all_rest() : unrest.ended(); });
-    if (ended) restless = unrest.restless();
+  const State before = ramp(first, p, still, threads, told, "gravity comes slowly", ramp_limit * time, [&] {
+    const bool ended = over(rests);
+    if (ended) out.moved = unrest.restless(), out.falls = unrest.falling(out.moved);
     return ended;
   });
-  if (restless.empty() || push) return restless;
+  if (out.moved.empty() || push) return out;
   State fallen = std::exchange(p.state, before);
-  std::vector<int> held = restless;
+  Unsteady held = out;
   for (int round = 0; round < most_rounds; ++round) {
-    std::vector<int> others;  // that do not stand under what falls while it is still there
-    ramp(slow, p, still, threads, told, "the weight of what stands comes, beside what falls", most, [&] {
-      const double share = p.state.time.t < time ? held_way / time : 0;
-      for (const int b : held) hold_back(b, std::max(share * slow.thickness[z(b)], held_rest * unrest.resting_speed()), unrest, p.state);
-      const bool ended = over([&] { return unrest.count([&](int b) { return unrest.moves(b); }).empty(); });
-      if (ended) std::ranges::set_difference(unrest.restless(), held, std::back_inserter(others));
-      return ended;
-    });
-    if (others.empty()) {
+    std::vector<std::uint8_t> others = still;
+    others.resize(z(p.model.nblock));
+    for (const int b : held.moved) others[z(b)] = 1;
+    const double pace = duration_of(scene, p, others, {});
+    Over all_over(p.state, pace);
+    HeldBack back(p.model, p.state, held.moved);
+    Unsteady more;  // does not stand under what falls while it is still there
+    const auto ended = [&] {
+      back.bound((p.state.time.t < pace ? held_way : held_way / 20) / pace);
+      const bool is = all_over(
+          [&] { return unrest.count([&](int b) { return unrest.moves(b) && !std::ranges::binary_search(held.moved, b); }).empty(); });
+      if (is) std::ranges::set_difference(unrest.restless(), held.moved, std::back_inserter(more.moved));
+      if (is) more.falls = unrest.falling(more.moved);
+      return is;
+    };
+    ramp(gravity_model(p, pace, still, damp_loose), p, still, threads, told, "the weight of what stands comes, beside what falls",
+         ramp_limit * pace, ended, true);
+    if (more.moved.empty()) {
       p.fallen = fallen.pose;
       return held;
     }
-    held.insert(held.end(), others.begin(), others.end());
-    std::ranges::sort(held);
+    held += more;
     p.state = before;
   }
   p.state = std::move(fallen);
-  return restless;
+  return out;
 }
 
 std::vector<int> lower_blocks(const Scene& scene, Prepared& p, const Resting& resting, int threads, const StartTold& told) {

@@ -215,11 +215,11 @@ analysis{ kind = "pushover" })",
 }
 
 TEST_CASE("a chip that falls off before the push leaves the rest to be pushed", "[push]") {
-  const std::string column =
-      "for i = 0, 4 do box{ name = 'c' .. i, group = 'column', size = {.4, .4, .2}, at = {-.2, -.2, .2 * i} } end ";
+  const std::string column = "for i = 0, 4 do box{ name = 'c' .. i, group = 'column', size = {.4, .4, .2}, at = {-.2, -.2, .2 * i} } end ";
   const std::string chip = "box{ name = 'chip', size = {.05, .05, .05}, at = {.2, 0, .85} } ";
-  const std::string bottomless = "material{ name = 'stone', density = 2000, kn = 1e10, ks = 4e9 } "
-                                 "box{ name = 'floor', size = {.4, .4, .5}, at = {-.2, -.2, -.5}, fixed = true } ";
+  const std::string bottomless =
+      "material{ name = 'stone', density = 2000, kn = 1e10, ks = 4e9 } "
+      "box{ name = 'floor', size = {.4, .4, .5}, at = {-.2, -.2, -.5}, fixed = true } ";
   for (const std::string kind : {"pushover", "tilt"}) {
     const std::string pushed = "joint{ law = dry{ kn = 1e10, ks = 4e9, mu = .7 } } analysis{ kind = '" + kind + "', fall = 0 }";
     const auto capacity = [&](const std::string& text) {
@@ -236,6 +236,10 @@ TEST_CASE("a chip that falls off before the push leaves the rest to be pushed", 
     CHECK(alone == Approx(.4).epsilon(.05));
     CHECK(capacity(stone + column + chip) == Approx(alone).epsilon(1e-3));
     CHECK(capacity(bottomless + column + chip) == Approx(alone).epsilon(1e-3));  // it falls for ever
+    const std::string plate = "box{ name = 'plate', size = {.01, .2, .1}, at = {.2, -.1, .02} } ";
+    CHECK(capacity(stone + column + plate) == Approx(alone).epsilon(1e-3));  // it stands on edge where it lands
+    const std::string high = "box{ name = 'high', size = {.05, .05, .05}, at = {.2, .1, .93} } ";
+    CHECK(capacity(stone + column + high) == Approx(alone).epsilon(1e-3));  // the highest block, but not to be monitored
   }
 }
 
