@@ -55,6 +55,7 @@ class PushRun {
   const std::string& script_;
   const RunOptions& options_;
   const double born_ = seconds();
+  double residual_ = 0;  // relative, of the energy ledger: the worst up to the collapse, and at the end
   double setup_ = 0, solve_start_ = 0, last_save_ = 0, record_ = 0;
   Prepared run_;
   CheckpointKey key_;
@@ -322,7 +323,7 @@ Metrics PushRun::metrics() {
   m.peak_memory_bytes = peak_memory_bytes();
   for (const Effect& e : effects_) (e.on ? m.effects_on : m.effects_off).push_back(e.name);
   m.energy = energy_terms(s.energy);
-  m.residual_relative = s.energy.residual_worst;
+  m.residual_relative = residual_;
   m.momentum_residual = s.observed.momentum_residual;
   m.max_penetration_relative = s.observed.max_penetration_relative;
   m.collapse.collapsed = gravity_alone_ || collapse_.collapsed || so_far_.path.above.has_value();
@@ -347,6 +348,7 @@ RunOutcome PushRun::go() {
     else push_on();
   }
   std::string& status = out_.metrics.status;
+  residual_ = run_.state.energy.residual_worst;
   if (status == "interrupted" || status == "stopped") {
     save(writer_->progress());
   } else if (status == "completed" && (gravity_alone_ || so_far_.path.above || past_peak(push_, so_far_))) {
@@ -359,10 +361,11 @@ RunOutcome PushRun::go() {
     if (status != "completed" || !drawn) run_.state = before, so_far_ = known, collapse_ = watched;
     if (status != "completed") save(written);  // resumed, it falls anew
   }
-  if (status == "completed" && run_.state.energy.residual_worst > Relaxation::ledger_tolerance) {
+  residual_ = std::max(residual_, run_.state.energy.residual_relative);
+  if (status == "completed" && residual_ > Relaxation::ledger_tolerance) {
     status = "inaccurate";
-    out_.trouble = fmt::format("the energy ledger misses {:.2g} of all energy; take a smaller analysis{{ dt_fraction }}",
-                               run_.state.energy.residual_worst);
+    out_.trouble = fmt::format("analysis: the energy ledger misses {:.2g} of all energy; say dt_fraction = {:.2g}", residual_,
+                               scene_.analysis.dt_fraction / 2);
   }
   if (status == "completed") {
     std::string why;

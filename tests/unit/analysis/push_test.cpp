@@ -258,6 +258,22 @@ TEST_CASE("a push draws no fall where none is wanted, and names the mechanism al
   CHECK(brief < whole);
 }
 
+TEST_CASE("a block slides off a tilted table in any direction, at any stiffness", "[push]") {
+  for (const std::string direction : {"x", "-x", "y", "-y"})
+    for (const std::string kn : {"1e8", "1e9", "1e11"})
+      for (const double mu : {.3, .7}) {
+        CAPTURE(direction, kn, mu);
+        const test::Scratch dir("push_slides");
+        const PushOutcome got =
+            push(fmt::format("material{{ name = 'm', density = 2000 }} ground{{}} joint{{ law = dry{{ kn = {}, mu = {} }} }} "
+                             "box{{ size = {{.3, .2, .1}}, name = 'a' }} analysis{{ kind = 'tilt', direction = '{}' }}",
+                             kn, mu, direction),
+                 dir.path);
+        CHECK(got.metrics.status == "completed");
+        CHECK(got.metrics.capacity->peak.multiplier == Approx(mu).epsilon(.01));
+      }
+}
+
 TEST_CASE("a push keeps its ledger", "[push]") {
   for (const std::string how : {"adaptive", "local", "kinetic"}) {
     const test::Scratch dir("push_ledger");
