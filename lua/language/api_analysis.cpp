@@ -136,6 +136,7 @@ int camera(Call& call) {
   item.place = call.place;
   arguments.read(item);
   if ((item.eye - item.target).norm() < 1e-9) arguments.mistake("eye and target are the same point; move one of them");
+  if (item.up.isZero(0)) arguments.mistake("up is zero; give the direction that points up in the picture, such as {0, 0, 1}");
   item.eye = frame.point(item.eye);
   item.target = frame.point(item.target);
   item.up = frame.vector(item.up);

@@ -163,8 +163,9 @@ void check_study(Context& context) {
 void check_pictures(Context& context) {
   std::vector<std::string> cameras{"from_-x", "from_+x", "from_-y", "from_+y", "from_above"};
   for (const Camera& camera : context.scene.cameras) cameras.push_back(camera.name);
+  if (context.scene.cameras.empty()) cameras.insert(cameras.end(), {"corner", "side"});  // those of the renderer (render/run/framing.cpp)
   for (const PictureExpectation& item : context.scene.pictures) {
-    if (!context.scene.cameras.empty() && std::find(cameras.begin(), cameras.end(), item.camera) == cameras.end())
+    if (std::find(cameras.begin(), cameras.end(), item.camera) == cameras.end())
       context.mistake(item.place,
                       fmt::format("expect_image: there is no camera \"{}\"{}", item.camera, did_you_mean(item.camera, cameras)));
     if (!context.scene.push.quasi_static() && item.t > context.scene.analysis.duration)

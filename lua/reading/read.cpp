@@ -10,10 +10,7 @@
 
 namespace erbs::lua {
 
-std::string written(double value) {
-  if (std::isinf(value)) return value > 0 ? "math.huge" : "-math.huge";
-  return fmt::format("{:.6g}", value);
-}
+std::string written(double value) { return !std::isinf(value) ? fmt::format("{:.6g}", value) : value > 0 ? "math.huge" : "-math.huge"; }
 
 std::string written(const Vec3& value) {
   return fmt::format("{{ {}, {}, {} }}", written(value.x()), written(value.y()), written(value.z()));
@@ -100,7 +97,8 @@ Arguments::Arguments(Context& context, lua_State* lua, int index, std::string la
     mistake(fmt::format("{} value(s) without a key; write them as key = value (keys: {})", positional, fmt::join(known, ", ")));
   for (const Key& k : *keys_)
     if (k.required && !has(k.name) && std::find(meant.begin(), meant.end(), k.name) == meant.end())
-      mistake(fmt::format("\"{}\" is missing ({}); add {} = ...", k.name, k.text, k.name));
+      mistake(k.name[0] <= '9' ? fmt::format("value {} is missing ({}); add it behind the others", k.name, k.text)
+                               : fmt::format("\"{}\" is missing ({}); add {} = ...", k.name, k.text, k.name));
 }
 
 void Arguments::mistake(const std::string& what) const { context_->mistake(place_, fmt::format("{}: {}", label_, what)); }
@@ -380,7 +378,7 @@ std::vector<Arguments> Arguments::tables(const std::string& key, const Keys& key
   }
   const auto n = lua_istable(lua_, -1) ? static_cast<int>(lua_rawlen(lua_, -1)) : 0;
   if (n == 0 || !lua_checkstack(lua_, n + 20)) {
-    wrong_type(key, key, "a list of tables");
+    wrong_type(key, key, "a list of one table or more, { { ... }, { ... } }");
     lua_pop(lua_, 1);
     return list;
   }

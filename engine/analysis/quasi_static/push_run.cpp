@@ -4,7 +4,6 @@
 #include <cmath>
 #include <utility>
 
-#include "engine/analysis/lost_blocks.h"
 #include "engine/analysis/quasi_static/limit_beside.h"
 #include "engine/analysis/quasi_static/push_events.h"
 #include "engine/analysis/quasi_static/push_results.h"
@@ -14,6 +13,7 @@
 #include "engine/analysis/snapshot.h"
 #include "engine/analysis/start/at_rest.h"
 #include "engine/base/count.h"
+#include "engine/model/lost_blocks.h"
 #include "engine/record/folder/checkpoint.h"
 #include "engine/record/folder/run_writer.h"
 #include "engine/record/results/collapse.h"

@@ -6,13 +6,13 @@
 #include <iterator>
 #include <utility>
 
-#include "engine/analysis/lost_blocks.h"
 #include "engine/analysis/start/elastic_push.h"
 #include "engine/analysis/start/held_back.h"
 #include "engine/base/count.h"
 #include "engine/base/error.h"
 #include "engine/base/system/interrupt.h"
 #include "engine/base/units.h"
+#include "engine/model/lost_blocks.h"
 #include "engine/solve/blocks/integrate.h"
 #include "engine/solve/blocks/islands.h"
 #include "engine/solve/step.h"

@@ -129,7 +129,8 @@ TEST_CASE("a stack that leans until a wall bears it begins the run in its place 
   CHECK(run.fallers.empty());
   CHECK(run.state.pose.u[index_of(run.model, "t2")].norm() < .01);
   CHECK((*run.fallen).u[index_of(run.model, "t2")].norm() > .03);
-  CHECK(std::ranges::any_of(run.warnings, [](const std::string& w) { return w.starts_with("slides or leans under its own weight until it rests: t"); }));
+  CHECK(std::ranges::any_of(run.warnings,
+                            [](const std::string& w) { return w.starts_with("slides or leans under its own weight until it rests: t"); }));
 }
 
 TEST_CASE("what settles with its support stands, however thin it is; what has slid to where it rests does not", "[analysis]") {

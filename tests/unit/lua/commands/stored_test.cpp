@@ -168,6 +168,9 @@ expect_stored("collapse.time_s", { rel = 1, abs = 1 }))");
     INFO(said);
     CHECK(contains(bench.said, said));
   }
+  REQUIRE(bench.erbs({"check", bench.scene("ground{} box{} material{ name = 'm', density = 2000 } expect_image('zz', .1)")}) ==
+          int(exit_usage));
+  CHECK(contains(bench.said, "there is no camera \"zz\""));
   CHECK(bench.test(leaning_pier(0.8, expectations), {"--bless", "--grid"}) == int(exit_usage));
   CHECK(contains(bench.said, "leave out --grid, --seeds and -D"));
 }

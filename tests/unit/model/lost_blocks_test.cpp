@@ -1,5 +1,5 @@
 // The report of a block that fell past the ground gives its position, and the size of ground that would have caught it.
-#include "engine/analysis/lost_blocks.h"
+#include "engine/model/lost_blocks.h"
 
 #include <catch2/catch.hpp>
 
@@ -7,10 +7,9 @@
 #include "tests/unit/lua/load.h"
 
 using namespace erbs;
-using namespace erbs::analysis;
 using namespace erbs::lua;
 
-TEST_CASE("a block beyond the ground is told with its place and a ground that reaches below it", "[analysis]") {
+TEST_CASE("a block beyond the ground is told with its place and a ground that reaches below it", "[model]") {
   Script script(quiet());
   const Scene scene = script.load_text(
       "gravity(g)\nmaterial{ name = 'brick', density = 1800 }\nground{ size = 4 }\nanalysis{ duration = 1 }\n"

@@ -1,4 +1,4 @@
-#include "engine/analysis/lost_blocks.h"
+#include "engine/model/lost_blocks.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 #include "engine/base/count.h"
 #include "engine/base/error.h"
 
-namespace erbs::analysis {
+namespace erbs {
 namespace {
 
 Vec3 place_of(const Model& m, const State& s, int b) { return m.rest[z(b)] + s.pose.u[z(b)]; }
@@ -40,4 +40,4 @@ std::string lost_blocks(const Model& m, const State& s) {
       count > 1 ? "all of them" : "it");
 }
 
-}  // namespace erbs::analysis
+}  // namespace erbs
