@@ -192,14 +192,17 @@ int perturbations(Call& call) {
 }
 
 const Keys& bisect_keys() {
-  static const Keys keys = {{"param", "string", "", "name of the param", -unbounded, unbounded, true},
-                            {"lo", "number", "", "value at which the verdict is no (it may be the larger one)", -1e300, 1e300, true},
-                            {"hi", "number", "", "value at which it is yes", -1e300, 1e300, true},
-                            {"rel", "number", "", "width of the last bracket over its larger end", 1e-12, 1, false, "", "0.01"},
-                            {"points", "integer", "", "runs between the ends in each round", 1, 1000, false, "", "1"},
-                            {"key", "string", "", "the verdict: a dotted key of metrics.json, yes where it is true or not 0", -unbounded,
-                             unbounded, false, "", "collapse.collapsed"},
-                            {"above", "number", "", "the verdict is yes where the key is above this number, instead", -1e300, 1e300}};
+  static const Keys keys = {
+      {"param", "string", "", "name of the param", -unbounded, unbounded, true},
+      {"lo", "number", "", "value at which the verdict is no (it may be the larger one)", -1e300, 1e300, true},
+      {"hi", "number", "", "value at which it is yes", -1e300, 1e300, true},
+      {"rel", "number", "", "width of the last bracket over its larger end", 1e-12, 1, false, "", "0.01"},
+      {"points", "integer", "",
+       "runs between the ends in each round; where the verdict comes and goes, as with rocking, many find its first yes", 1, 1000, false,
+       "", "1"},
+      {"key", "string", "", "the verdict: a dotted key of metrics.json, yes where it is true or not 0", -unbounded, unbounded, false, "",
+       "collapse.collapsed"},
+      {"above", "number", "", "the verdict is yes where the key is above this number, instead", -1e300, 1e300}};
   return keys;
 }
 
