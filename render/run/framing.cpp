@@ -168,12 +168,22 @@ Camera framed(const Camera& camera, const Vec3& direction, const Stage& stage, c
   return framing.camera(stage.building.center());
 }
 
+// Where a table that turns faces when it leans most: its upper side is seen from there, its lower side from behind. Zero if it stays.
+Eigen::Vector2d downhill_of(const Stage& stage) {
+  Eigen::Vector2d out = Eigen::Vector2d::Zero();
+  for (const Eigen::Isometry3d& at : stage.positions)
+    if (const Eigen::Vector2d leans = at.linear().col(2).head<2>(); leans.norm() > out.norm()) out = leans;
+  return out;
+}
+
 }  // namespace
 
 std::vector<Camera> choose_cameras(const Stage& stage, double aspect) {
   const std::vector<Vec3> seen = seen_points(stage);
+  const Eigen::Vector2d downhill = downhill_of(stage);
   std::vector<Camera> cameras;
-  for (const auto& [name, direction] : {std::pair{"corner", Vec3(0.62, -1, 0.34)}, {"side", Vec3(-1, -0.50, 0.42)}}) {
+  for (auto [name, direction] : {std::pair{"corner", Vec3(0.62, -1, 0.34)}, {"side", Vec3(-1, -0.50, 0.42)}}) {
+    if (direction.head<2>().dot(downhill) < 0) direction.head<2>() *= -1;
     Camera camera;
     camera.name = name;
     camera.fov = 26 * pi / 180;

@@ -38,7 +38,8 @@ class Framing {
 // the ground, are left out; a picture that holds them would show the building too small.
 std::vector<Vec3> visible_corners(const MotionScene& drawn, const Stage& stage, const MotionFrame& frame);
 
-// Two cameras, each from one corner. They show the whole building and its final heap, in a picture of this width/height.
+// Two cameras, each from one corner, and from in front of a table that turns. They show the whole building and its final heap, in a picture
+// of this width/height.
 std::vector<Camera> choose_cameras(const Stage& stage, double aspect);
 
 // Elevations and a plan, from_-x ... from_+y and from_above: seen from very far, so that they are nearly parallel projections.

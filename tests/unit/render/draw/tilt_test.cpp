@@ -8,6 +8,7 @@
 #include "engine/base/vec.h"
 #include "render/image/text.h"
 #include "render/movie/movie.h"
+#include "render/run/framing.h"
 #include "tests/support/folder.h"
 #include "tests/unit/render/brick_house.h"
 
@@ -96,6 +97,20 @@ TEST_CASE("what slides down a tilting ground stays on the plate that is drawn", 
   const Stage stage = set_stage(scene, {brick_house_frame(scene, 0), last});
   CHECK(stage.table.contains(Vec3(8.1, brick[1], stage.ground_z)));
   CHECK(stage.table.max().x() < 10.001);
+}
+
+TEST_CASE("default cameras look at the upper side of a table, however it tilts", "[render][stage]") {
+  const MotionScene scene = brick_house({1.2, 1.2, 4, 0.2, 0.1});
+  const MotionFrame frame = brick_house_frame(scene, 0);
+  for (int direction = 0; direction < 12; ++direction)
+    for (const double angle : {0.1, 0.4, 0.8}) {
+      const double around = direction * pi / 6;
+      const Mat3 level = rotation(angle * Vec3(std::cos(around), std::sin(around), 0)).toRotationMatrix();
+      Stage stage = set_stage(scene, {frame});
+      turn_table(stage, scene, {frame, frame}, {Mat3::Identity(), level});
+      CAPTURE(around, angle);
+      for (const Camera& camera : choose_cameras(stage, 16.0 / 9)) CHECK((camera.eye - camera.target).normalized().dot(level.col(2)) > 0.2);
+    }
 }
 
 TEST_CASE("below a table that blocks fall past no floor is drawn", "[render][stage]") {
