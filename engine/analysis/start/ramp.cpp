@@ -36,7 +36,7 @@ constexpr double far_over = 0.05;  // rad
 // What falls, while it is held back: of its thickness, how far it may come in the time of the ramp; a twentieth of it as long after it.
 constexpr double held_way = 0.01;
 constexpr double looks = 25000;  // at a ramp, in its longest time
-constexpr int rests = 10;        // looks at rest one after the other: what bounces is at rest for an instant
+constexpr int quiet_looks = 10;  // looks at rest one after the other: what bounces is at rest for an instant
 constexpr int most_rounds = 4;   // of holding back, each with the blocks that would not stand in the one before
 
 // Blocks that still move, and blocks that fall: lower than at the start by half their thinnest extent, the criterion of `Collapse`.
@@ -195,9 +195,8 @@ State ramp(const Model& slow, Prepared& p, const std::vector<std::uint8_t>& stil
   Solver solver(slow, s, p.range, threads);
   using Clock = std::chrono::steady_clock;
   Clock::time_point due = Clock::now();
-  double next = 0;  // s
   do {
-    next = s.time.t + (every_step ? 0 : most / looks);
+    const double next = s.time.t + (every_step ? 0 : most / looks);
     while (solver.advance({.next = next}) == Solver::Stop::ledger) continue;
     if (is_interrupted()) throw Interrupted("interrupted while the structure came to rest, before the first step; nothing is written");
     if (told && Clock::now() >= due) {
@@ -226,7 +225,7 @@ class Over {
   template <class F>
   bool operator()(F&& at_rest) {
     for_ = state_.time.t >= time_ && at_rest() ? for_ + 1 : 0;
-    return for_ >= rests || state_.time.t >= ramp_limit * time_;
+    return for_ >= quiet_looks || state_.time.t >= ramp_limit * time_;
   }
 
  private:
@@ -269,12 +268,12 @@ Unsteady ramp_gravity(const Scene& scene, Prepared& p, const std::vector<std::ui
   const Unrest unrest(first, p.state);
   Over over(p.state, time);
   Unsteady out;
-  const auto rests = [&] {
+  const auto at_rest = [&] {
     return unrest.ended() &&
            (!push || unrest.all_rest() || unrest.share_of_mass(unrest.falling(unrest.restless())) >= scene.analysis.collapse_fraction);
   };
   const State before = ramp(first, p, still, threads, told, "gravity comes slowly", ramp_limit * time, [&] {
-    const bool ended = over(rests);
+    const bool ended = over(at_rest);
     if (ended) out.moved = unrest.restless(), out.falls = unrest.falling(out.moved);
     return ended;
   });
