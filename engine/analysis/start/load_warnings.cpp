@@ -59,6 +59,21 @@ std::string idle(const Load& load, double duration) {
                      name_of(load), begin, duration);
 }
 
+// A load that acts, but on nothing: a rotation of gravity about its own line, or a force far from its block.
+std::string astray(const Load& load, const Scene& scene, const Model& model) {
+  if (load.kind == Load::Kind::tilt && load.direction.cross(scene.gravity).norm() < 1e-9 * load.direction.norm() * scene.gravity.norm())
+    return "tilt: its axis is the line of gravity, so that nothing tilts; give a level axis, such as \"x\"";
+  if (load.kind != Load::Kind::force || !load.has_point) return "";
+  const auto b = std::size_t(std::ranges::find(model.block_name, load.block) - model.block_name.begin());
+  Eigen::AlignedBox3d box;
+  for (const Polyhedron& part : model.parts[b])
+    for (const Vec3& corner : part.vertices) box.extend(corner);
+  const double beyond = box.exteriorDistance(load.point);
+  if (!(beyond > 1e-3 * box.sizes().maxCoeff())) return "";
+  return fmt::format("{}: its point is {:.3g} m outside of the block, which it moves with as if by an arm; is it meant so?", name_of(load),
+                     beyond);
+}
+
 // A displacement or a speed that is there at once, where the wave begins or the run does. `joined`: the block bears others, so that a speed
 // is a blow to them.
 std::string blow(const Load& load, double duration, bool joined) {
@@ -91,6 +106,7 @@ std::vector<std::string> warnings_of_loads(const Scene& scene, const Model& mode
   std::vector<Doubt> doubts;
   for (const Load& load : scene.loads) {
     std::string text = idle(load, scene.analysis.duration);
+    if (text.empty()) text = astray(load, scene, model);
     if (text.empty() && (load.kind == Load::Kind::motion || load.kind == Load::Kind::turning)) {
       const auto block = std::find_if(scene.blocks.begin(), scene.blocks.end(), [&](const Block& b) { return b.name == load.block; });
       text = blow(load, scene.analysis.duration, joined[std::size_t(block - scene.blocks.begin())]);

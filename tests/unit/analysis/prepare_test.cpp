@@ -182,6 +182,16 @@ TEST_CASE("loads that begin after the run, and supports that jump, are told", "[
   CHECK(told(motion("function(t) return 0.02 * t end"), "starts at once with 0.02 m/s at 0 s"));
   CHECK_FALSE(told(motion("function(t) return 0.02 * t ^ 2 end"), "motion"));
   CHECK_FALSE(told(motion("curve_wave{ times = { 0, 1 }, values = { 0, 0.02 }, hold = true }"), "motion"));
+
+  const auto tilt = [](const std::string& axis) {
+    return "gravity(g) tilt{ axis = " + axis + ", wave = sine{ amplitude = .1, frequency = 1 } }";
+  };
+  CHECK(told(tilt("'z'"), "its axis is the line of gravity"));
+  CHECK_FALSE(told(tilt("{ .1, 0, 1 }"), "axis"));
+  const auto at = [&](const std::string& point) {
+    return "force{ block = '" + top + "', direction = 'x', wave = 9, point = " + point + " }";
+  };
+  CHECK(told(at("{ 9, 9, 9 }"), "m outside of the block"));
 }
 
 TEST_CASE("a wall on a table that is tilted from the start is at rest on it", "[analysis]") {
