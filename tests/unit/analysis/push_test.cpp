@@ -258,6 +258,31 @@ TEST_CASE("a push draws no fall where none is wanted, and names the mechanism al
   CHECK(brief < whole);
 }
 
+TEST_CASE("a push beside a fallen chip goes on after a stop, and any relaxation finds its capacity", "[push]") {
+  const std::string pier =
+      stone +
+      "for i = 0, 4 do box{ name = 'c' .. i, group = 'column', size = {.4, .4, .2}, at = {-.2, -.2, .2 * i} } end "
+      "box{ name = 'chip', size = {.05, .05, .05}, at = {.2, 0, .85} } joint{ law = dry{ kn = 1e10, ks = 4e9, mu = .7 } } ";
+  std::vector<double> capacities;
+  for (const std::string how : {"critical", "kinetic", "adaptive", "local"}) {
+    const test::Scratch dir("push_chip_" + how);
+    capacities.push_back(
+        push(pier + "analysis{ kind = 'pushover', fall = 0, relaxation = '" + how + "' }", dir.path).metrics.capacity->peak.multiplier);
+    CHECK(capacities.back() == Approx(capacities.front()).epsilon(2e-3));
+  }
+  for (const std::string control : {"control = 'load'", "control = 'displacement', displacement = 10*mm"}) {
+    CAPTURE(control);
+    const std::string text = pier + "analysis{ kind = 'pushover', fall = 0, " + control + " }";
+    const test::Scratch whole("push_chip_whole"), parts("push_chip_parts");
+    const PushOutcome at_once = push(text, whole.path);
+    REQUIRE(push(text, parts.path, 1, Existing::refuse, 150).metrics.status == "interrupted");
+    const PushOutcome resumed = push(text, parts.path, 1, Existing::resume);
+    CHECK(resumed.metrics.status == "completed");
+    CHECK(resumed.metrics.state_hash == at_once.metrics.state_hash);
+    CHECK(resumed.curve == at_once.curve);
+  }
+}
+
 TEST_CASE("a block slides off a tilted table in any direction, at any stiffness", "[push]") {
   for (const std::string direction : {"x", "-x", "y", "-y"})
     for (const std::string kn : {"1e8", "1e9", "1e11"})
