@@ -48,9 +48,10 @@ std::string did_you_mean(std::string_view word, const std::vector<std::string>& 
   const std::string near = nearest(word, known);
   if (!near.empty()) return fmt::format("; did you mean \"{}\"?", near);
   if (known.empty()) return "; none is known";
-  const size_t shown = std::min<size_t>(known.size(), 24);
+  constexpr size_t most = 40;
+  const size_t shown = std::min(known.size(), most);
   const std::vector<std::string> first(known.begin(), known.begin() + static_cast<std::ptrdiff_t>(shown));
-  return fmt::format("; known: {}{}", fmt::join(first, ", "), shown < known.size() ? ", ..." : "");
+  return fmt::format("; known: {}{}", fmt::join(first, ", "), shown < known.size() ? fmt::format(" and {} more", known.size() - shown) : "");
 }
 
 }  // namespace erbs

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <nlohmann/json.hpp>
 
 #include "engine/base/error.h"
 
@@ -59,6 +60,8 @@ void each_letter(std::string_view text, Plain&& plain, Other&& other) {
   }
 }
 
+bool as_json = false;
+
 }  // namespace
 
 bool is_plain(std::string_view text) {
@@ -96,6 +99,8 @@ std::string printable(std::string_view text) {
   return out;
 }
 
+void tell_as_json() { as_json = true; }
+
 void tell(std::FILE* to, std::string_view text) {
   constexpr std::size_t most = 4000;  // bytes per line: foreign names and words may have any length
   std::string all;
@@ -106,6 +111,7 @@ void tell(std::FILE* to, std::string_view text) {
     all += '\n';
     begin = end + 1;
   }
+  if (as_json && to == stderr) all = nlohmann::json{{"message", all.substr(0, all.size() - 1)}}.dump() + "\n";
   std::fwrite(all.data(), 1, all.size(), to);
 }
 

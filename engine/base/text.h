@@ -23,6 +23,9 @@ std::string printable(std::string_view text);
 // stdout is reported by main() at the end. A line of more than 4000 bytes is cut.
 void tell(std::FILE* to, std::string_view text);
 
+// From now on each message to stderr is one line {"message": text}, for programs that read it beside the lines of progress.
+void tell_as_json();
+
 // Valid UTF-8 on one line for files. Control characters become spaces, invalid bytes the character U+FFFD.
 std::string for_files(std::string_view text);
 

@@ -61,7 +61,23 @@ void print_effects(const Scene& scene) {
   say("effects off: {}\n", off.empty() ? "none" : off);
 }
 
-void print_run(const Scene& scene, const analysis::Prepared& run) {
+// The files of a run: a row at most every step.
+void print_results(const Scene& scene, const Model& model, double steps, std::size_t columns) {
+  constexpr double energy_row = 210, column = 14, block = 40;  // bytes, as measured; a pose is compressed
+  constexpr double much = 2e9;
+  const Analysis& a = scene.analysis;
+  const double rows = std::min(steps, std::floor(a.duration / a.output_dt) + 1),
+               frames = std::min(steps, std::floor(a.duration / a.frame_dt) + 1);
+  const double bytes = rows * (energy_row + column * double(columns)) + frames * block * model.nblock;
+  say("results: {:g} rows and {:g} frames, about {:.2g} MB\n", rows, frames, 1e-6 * bytes);
+  if (bytes > much)
+    tell(stderr, fmt::format("warning: {}: analysis: results of about {:.2g} GB ({:.3g} rows, output_dt = {:g} s; {:.3g} frames, frame_dt = "
+                             "{:g} s); say a longer {}",
+                             a.place.text(), 1e-9 * bytes, rows, a.output_dt, frames, a.frame_dt,
+                             rows * (energy_row + column * double(columns)) > 0.5 * bytes ? "output_dt" : "frame_dt"));
+}
+
+void print_run(const Scene& scene, const analysis::Prepared& run, std::size_t columns) {
   const Model& model = run.model;
   const double dt = run.state.time.dt, steps = std::ceil(scene.analysis.duration / dt);
   say("model: {} blocks, {} joints, {} contact points\n", model.nblock, model.njoint, model.npoint);
@@ -75,6 +91,7 @@ void print_run(const Scene& scene, const analysis::Prepared& run) {
   }
   say("estimate: {:g} steps for {:g} s, {:.0f} MiB; {}\n", steps, scene.analysis.duration,
       (static_cast<double>(bytes_of(model)) + own_memory) / 1048576.0, cost_text(estimated_cost(model, steps, scene.analysis.debris)));
+  print_results(scene, model, steps, columns);
 }
 
 void print_rocking(const Model& model) {
@@ -95,7 +112,7 @@ void check_scene(const std::string& path, const CheckCommand& command) {
   if (command.quiet) return;
   print_scene(scene);
   print_motions(scene);
-  print_run(scene, run);
+  print_run(scene, run, recorders.columns().size());
   print_rocking(run.model);
   print_effects(scene);
 }

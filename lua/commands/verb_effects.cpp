@@ -61,6 +61,15 @@ SettingRuns runs_of(const Script& script, const std::vector<Effect>& effects, co
   return runs;
 }
 
+// A cause without the words for its program: "diverged: exit code 1: wall.lua: the run diverged at ...; take ..." ends before its remedy,
+// which is that of a run and not that of a comparison.
+std::string cause_of(const Measured& m, const std::string& path) {
+  const std::string& whole = m.trouble;
+  const std::size_t named = whole.rfind(path + ": ");
+  const std::string cause = named == std::string::npos ? whole : whole.substr(named + path.size() + 2);
+  return cause.substr(0, std::min(cause.find(';'), cause.find(" (dt")));
+}
+
 // The metric with the largest relative change, and the change.
 std::pair<std::string, double> moved(const Measured& all, const Measured& without) {
   if (all.collapsed != without.collapsed) return {all.collapsed ? "stands" : "collapses", 1};
@@ -83,14 +92,37 @@ struct EffectRow {
   std::pair<std::string, double> moved;
 };
 
-void print_row(const EffectRow& r) {
-  if (!r.without.trouble.empty()) {
-    say("{:<26} without it: {}\n", r.without.effect, r.without.trouble);
-    return;
+// What two equal runs of the scene leave in doubt.
+struct Noise {
+  double differ = 0, percent = 0;  // %, of processor time: of the two runs; below which a cost of a step is in doubt
+  double memory = 0;               // bytes, likewise
+};
+
+Noise noise_of(const Measured& all, const Measured& again) {
+  constexpr double least = 2, least_memory = 0.01;  // % of time, share of memory: even if two runs agree by chance
+  Noise out{0, 2 * least, 2 * least_memory * all.memory};
+  if (!again.trouble.empty()) return out;
+  out.differ = 100 * std::fabs(again.cpu - all.cpu) / all.cpu;
+  out.percent = std::max(out.percent, 2 * out.differ);
+  out.memory = std::max(out.memory, 2 * std::fabs(again.memory - all.memory));
+  return out;
+}
+
+void print_rows(const std::vector<EffectRow>& rows, const Noise& noise, const Measured& all, const std::string& path) {
+  say("{:<26} {:>9} {:>7} {:>7} {:>8}  {:>8}  {:<28} {}\n", "effect", "ns/point", "%", "steps %", "B/point", "moves %", "metric",
+      "called for by");
+  for (const EffectRow& r : rows) {
+    if (!r.without.trouble.empty()) {
+      say("{:<26} without it: {}\n", r.without.effect, cause_of(r.without, path));
+      continue;
+    }
+    const bool costs = std::fabs(r.percent) >= noise.percent;
+    const bool fills = std::fabs(r.bytes) * std::max(1.0, all.points) >= noise.memory;
+    say("{:<26} {:>9} {:>7} {:>7} {:>8}  {:>8}  {:<28} {}{}\n", r.without.effect, costs ? fmt::format("{:.3g}", r.ns) : "noise",
+        costs ? fmt::format("{:.0f}", r.percent) : "", fmt::format("{:.0f}", r.steps + 0.0), fills ? fmt::format("{:.0f}", r.bytes) : "-",
+        fmt::format("{:.3g}", 100 * r.moved.second), r.moved.first, r.without.because,
+        r.without.inaccurate ? "  (inaccurate without it)" : "");
   }
-  say("{:<26} {:9.4f} {:7.1f} {:7.1f} {:9.1f}  {:>10.3g}  {:<28} {}{}\n", r.without.effect, r.ns, r.percent, r.steps, r.bytes,
-      100 * r.moved.second, r.moved.first, r.without.because, r.without.inaccurate ? "  (inaccurate without it)" : "");
-  std::fflush(stdout);
 }
 
 void write_table(const std::vector<EffectRow>& rows, const std::string& path) {
@@ -126,17 +158,14 @@ void draw(const std::vector<EffectRow>& rows, const std::string& scene, const st
   plot::draw(figure, path);
 }
 
-// What two equal runs differ by in the cost of a step, and which rows of the table that leaves in doubt.
-void print_noise(const std::vector<EffectRow>& rows, const Measured& all, const Measured& again) {
-  if (!again.trouble.empty()) return;
-  constexpr double least = 2;  // %, even of two runs that agree by chance
-  const double noise = std::max(least, 100 * std::fabs(again.cpu - all.cpu) / all.cpu);
-  const auto within =
-      std::ranges::count_if(rows, [&](const EffectRow& r) { return r.without.trouble.empty() && std::fabs(r.percent) < 2 * noise; });
-  say("\nmoves: change of the metric that changes most, in % of its larger value\n"
-      "two equal runs of {:.2g} s differ by {:.1f} % in their time, so that costs below {:.0f} % are noise: {} of {} effects{}\n",
-      all.cpu, 100 * std::fabs(again.cpu - all.cpu) / all.cpu, 2 * noise, within, rows.size(),
-      within > 0 && all.cpu < 10 ? "; a longer run tells them apart" : "");
+void print_legend(const std::vector<EffectRow>& rows, const Noise& noise, const Measured& all) {
+  const auto within = std::ranges::count_if(
+      rows, [&](const EffectRow& r) { return r.without.trouble.empty() && std::fabs(r.percent) < noise.percent; });
+  say("\n%: of a step; below zero, the rest of a step costs more without the effect. steps %: of the run's steps; below zero, more steps "
+      "without it\nmoves: change of the metric that changes most, in % of its larger value; from 100 on, it changes its sign, or the "
+      "verdict changes\ntwo equal runs of {:.2g} s differ by {:.1f} % in their time, so that costs below {:.0f} % are noise: {} of {} "
+      "effects{}\n",
+      all.cpu, noise.differ, noise.percent, within, rows.size(), within > 0 && all.cpu < 10 ? "; a longer run tells them apart" : "");
 }
 
 }  // namespace
@@ -157,10 +186,8 @@ int verb_effects(const EffectsCommand& command) {
     tell(stderr, fmt::format("warning: {}: the run of the whole scene is inaccurate: {}; its changes are not to be relied on", path,
                              made.front().reason));
   const double updates = std::max(1.0, all.points) * all.steps;
-  say("{}: {:.3g} s of one core, {:g} steps, {:g} points: {:.4f} ns per point and step, {:.1f} bytes per point\n\n", scene.name, all.cpu,
-      all.steps, all.points, 1e9 * all.cpu / updates, all.memory / std::max(1.0, all.points));
-  say("{:<26} {:>9} {:>7} {:>7} {:>9}  {:>10}  {:<28} {}\n", "effect", "ns/point", "%", "steps %", "B/point", "moves %", "metric",
-      "called for by");
+  say("{}: {:.3g} s of one core, {:.0f} steps, {:.0f} points: {:.3g} ns per point and step, {:.3g} MB\n\n", scene.name, all.cpu, all.steps,
+      all.points, 1e9 * all.cpu / updates, 1e-6 * all.memory);
   std::vector<EffectRow> rows;
   for (std::size_t i = 0; i < effects.size(); ++i) {
     EffectRow row{measured_of(made[i + 1], effects[i].name, effects[i].because), NAN, NAN, NAN, NAN, {"-", NAN}};
@@ -173,10 +200,11 @@ int verb_effects(const EffectsCommand& command) {
       row.bytes = (all.memory - row.without.memory) / std::max(1.0, all.points);
       row.moved = moved(all, row.without);
     }
-    print_row(row);
     rows.push_back(std::move(row));
   }
-  print_noise(rows, all, measured_of(made.back(), "", ""));
+  const Noise noise = noise_of(all, measured_of(made.back(), "", ""));
+  print_rows(rows, noise, all, path);
+  print_legend(rows, noise, all);
   write_table(rows, directory + "/effects.csv");
   std::erase_if(rows, [](const EffectRow& row) { return !row.without.trouble.empty(); });
   draw(rows, scene.name, directory + "/effects.svg");

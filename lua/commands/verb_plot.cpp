@@ -59,6 +59,18 @@ void list_columns(const std::vector<ReadRun>& runs) {
   }
 }
 
+// "; the run has a, b, c and 12 more; erbs plot DIR --list says what they are", first those that the scene records.
+std::string known_columns(const CsvTable& table) {
+  constexpr std::size_t most = 16;
+  std::vector<std::string> names;
+  for (std::size_t c = 0; c < table.names.size(); ++c)
+    if (table.text[c].empty() && table.names[c] != "time_s") names.push_back(table.names[c]);
+  const std::size_t shown = std::min(names.size(), most);
+  return fmt::format("; the run has {}{}; erbs plot DIR --list says what they are",
+                     fmt::join(names.begin(), names.begin() + std::ptrdiff_t(shown), ", "),
+                     shown < names.size() ? fmt::format(" and {} more", names.size() - shown) : "");
+}
+
 bool holds(const CsvTable& table, const std::string& pattern) {
   try {
     return !choose_columns(table, pattern).empty();
@@ -220,7 +232,7 @@ int verb_plot(const PlotCommand& command) {
   if (draws_frames(command, kind)) return exit_ok;
   const std::vector<ReadRun> runs = read_runs(command.words);
   if (command.list) return (list_columns(runs), exit_ok);
-  if (command.y.empty()) throw Error("plot takes columns; write --y COLUMN, and erbs plot DIR --list lists them");
+  if (command.y.empty()) throw Error(fmt::format("plot takes columns; write --y COLUMN{}", known_columns(runs.front().table)));
   const std::string path = picture_of(command);
   std::vector<HistoryCurve> curves;
   for (const ReadRun& run : runs) try {

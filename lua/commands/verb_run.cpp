@@ -264,7 +264,7 @@ int verb_run(const RunCommand& wish) {
   for (const auto& effect : command.changes.without) switch_off(scene, effect);
   std::vector<std::string> notes = script.output();
   notes.insert(notes.end(), scene.notes.begin(), scene.notes.end());
-  for (const auto& note : apply_overrides(scene, command)) notes.push_back(note);
+  for (const auto& note : apply_overrides(scene, command, script)) notes.push_back(note);
   if (!command.changes.settings.empty() || command.changes.push_to > 0)  // they pass the same checks as the scene
     if (const auto mistakes = check(scene); !mistakes.empty()) throw Errors(mistakes);
   for (const auto& warning : warnings(scene)) {

@@ -28,6 +28,9 @@ namespace {
 std::string readable(const std::string& text, const std::string& name) {
   if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF")) throw Error("the file is in UTF-16; save it as UTF-8", {name, 1});
   const std::string bare = text.starts_with("\xEF\xBB\xBF") ? text.substr(3) : text;
+  const std::size_t first = bare.find_first_not_of(" \t\r\n");
+  if (bare.find('\0') != std::string::npos || (first != std::string::npos && std::strchr("{[<", bare[first]) != nullptr))
+    throw Error("this is no Lua script, as a scene is one; name the scene that made it, or begin with scenes/first.lua", {name, 1});
   return bare.starts_with("#") ? "--" + bare : bare;
 }
 
@@ -65,12 +68,17 @@ bool is_bare_word(const std::string& text) {
          std::ranges::all_of(text, [](unsigned char c) { return std::isalnum(c) != 0 || std::strchr("_.-+", c) != nullptr; });
 }
 
+// Leaves the value of an expression on the stack.
+void evaluate(lua_State* lua, Context& context, const std::string& expression, const std::string& name) {
+  load_chunk(lua, context, "return " + expression, name);
+  call_script(lua, context, 0, 1);
+}
+
 void evaluate_overrides(lua_State* lua, Context& context) {
   for (Override& item : context.overrides) {
     const std::string name = "-D " + item.name + "=" + item.expression;
     try {
-      load_chunk(lua, context, "return " + item.expression, name);
-      call_script(lua, context, 0, 1);
+      evaluate(lua, context, item.expression, name);
       item.is_word = lua_type(lua, -1) == LUA_TSTRING && is_plain(lua_tostring(lua, -1));
       if (!item.is_word && (lua_type(lua, -1) != LUA_TNUMBER || !std::isfinite(lua_tonumber(lua, -1))))
         throw Error(fmt::format("{}: the value must be a finite number, such as 0.8*g, not {}", name, described(lua, -1)));
@@ -244,6 +252,14 @@ PerformanceDemand Script::load_spectrum(const std::string& keys, const std::stri
   for (std::string& mistake : mistakes) mistake = name + ": " + mistake;
   if (!mistakes.empty()) throw Errors(mistakes);
   return demand;
+}
+
+double Script::number(const std::string& expression, const std::string& name) {
+  const Stretch stretch(lua_, *context_);
+  evaluate(lua_, *context_, expression, name);
+  const double value = lua_type(lua_, -1) == LUA_TNUMBER ? lua_tonumber(lua_, -1) : NAN;
+  lua_pop(lua_, 1);
+  return value;
 }
 
 // `part`: of a scene; what only a whole one has is not checked.

@@ -61,6 +61,9 @@ class Script {
   // A call of spectrum{} by its keys alone, as on a command line: kind = "TBSC 2018", SDS = 0.9, SD1 = 0.25. Throws Errors.
   PerformanceDemand load_spectrum(const std::string& keys, const std::string& name);
 
+  // Value of an expression with units, as on a command line: 2*mm. Not a number if it is something else. Throws Error for no expression.
+  double number(const std::string& expression, const std::string& name);
+
   // The metrics of the scene, in its order.
   std::vector<MetricValue> evaluate_metrics(const RunResults& results);
 

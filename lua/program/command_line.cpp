@@ -23,7 +23,7 @@ void add_run(CLI::App& app, RunCommand& command) {
       ->check(within(1, 10000));
   run.add_option("--rule", changes.rule, "quadrature rule of the contact points of every joint")
       ->check(CLI::IsMember({"simpson", "midpoint", "trapezoid", "gauss"}));
-  run.add_option("--set", changes.settings, "another value for a key of analysis{}: --set lazy_rotation=1e-4")
+  run.add_option("--set", changes.settings, "another value for a key of analysis{}, with units: --set output_dt=2*ms")
       ->type_name("key=value")
       ->expected(1)
       ->take_all();
@@ -52,7 +52,9 @@ void add_run(CLI::App& app, RunCommand& command) {
       ->type_name("EFFECT")
       ->take_all();
   run.add_flag("--profile", command.profile, "print where the time went, and what kept the steps short");
-  run.add_flag("--log-json", command.log_json, "print progress as lines of JSON");
+  run.add_flag_callback(
+      "--log-json", [&command] { command.log_json = true, tell_as_json(); },
+      "print progress, warnings and errors to stderr as lines of JSON");
   run.add_flag("--fail-on-collapse", command.fail_on_collapse, "exit with 4 when the structure collapses");
 }
 

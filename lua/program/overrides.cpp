@@ -2,6 +2,7 @@
 #include "lua/program/overrides.h"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <iterator>
 
@@ -16,9 +17,20 @@ namespace {
 
 constexpr std::string_view quality_is = "quality=";
 
+// A number, an expression such as 2*ms, true or false; not a number if it is none.
+double number_of(const std::string& value, const std::string& setting, Script& script) {
+  if (value == "true" || value == "false") return value == "true" ? 1 : 0;
+  double number = 0;
+  const char* const end = value.data() + value.size();
+  if (const auto read = std::from_chars(value.data(), end, number); read.ec == std::errc() && read.ptr == end) return number;
+  try {
+    return script.number(value, "--set " + setting);
+  } catch (const Error&) { return NAN; }
+}
+
 // Sets a number or a word of a field list; false if it has no such key.
 template <class T>
-bool set_field(T& values, const std::string& key, const std::string& value, const std::string& setting) {
+bool set_field(T& values, const std::string& key, const std::string& value, const std::string& setting, Script& script) {
   for (const auto& field : T::fields()) {
     if (field.name != key) continue;
     field.member.visit([&](auto member) {
@@ -28,16 +40,14 @@ bool set_field(T& values, const std::string& key, const std::string& value, cons
           throw Error(fmt::format("--set {}: must be one of {}", shown(setting), field.words));
         values.*member = value;
       } else if constexpr (std::is_same_v<V, double> || std::is_same_v<V, int> || std::is_same_v<V, bool>) {
-        double number = 0;
-        size_t used = 0;
-        try {
-          number = std::stod(value, &used);
-        } catch (const std::exception&) {}
+        const double number = number_of(value, setting, script);
         constexpr bool whole = !std::is_same_v<V, double>;
         const bool ranged = field.low < field.high && !std::is_same_v<V, bool>;
         const double low = ranged ? field.low : 0, high = ranged ? field.high : 1;
-        if (value.empty() || used != value.size() || !(number >= low && number <= high) || (whole && number != std::floor(number)))
-          throw Error(fmt::format("--set {}: must be a {}number from {:g} to {:g}", shown(setting), whole ? "whole " : "", low, high));
+        if (!(number >= low && number <= high) || (whole && number != std::floor(number)))
+          throw Error(std::is_same_v<V, bool> ? fmt::format("--set {}: must be true or false", shown(setting))
+                                              : fmt::format("--set {}: must be a {}number from {:g} to {:g}", shown(setting),
+                                                            whole ? "whole " : "", low, high));
         values.*member = static_cast<V>(number);
       } else {
         throw Error(fmt::format("--set {}: only numbers and words can be set", setting));
@@ -49,11 +59,11 @@ bool set_field(T& values, const std::string& key, const std::string& value, cons
 }
 
 // --set key=value of analysis{}.
-void set_analysis(Scene& scene, const std::string& setting) {
+void set_analysis(Scene& scene, const std::string& setting, Script& script) {
   const size_t equals = setting.find('=');
   const std::string key = setting.substr(0, equals), value = equals == std::string::npos ? "" : setting.substr(equals + 1);
-  if (set_field(scene.analysis, key, value, setting)) return;
-  if (set_field(scene.push, key, value, setting)) {
+  if (set_field(scene.analysis, key, value, setting, script)) return;
+  if (set_field(scene.push, key, value, setting, script)) {
     if (!scene.push.quasi_static() && key != "kind")
       throw Error(fmt::format("--set {}: \"{}\" belongs to a push; the scene has none", setting, key), scene.analysis.place);
     return;
@@ -80,7 +90,7 @@ void stiffen(JointRule& rule, double factor) {
 
 }  // namespace
 
-std::vector<std::string> apply_overrides(Scene& scene, const RunCommand& command) {
+std::vector<std::string> apply_overrides(Scene& scene, const RunCommand& command, Script& script) {
   const SceneChanges& changes = command.changes;
   std::vector<std::string> notes;
   if (changes.dt_fraction) {
@@ -90,7 +100,7 @@ std::vector<std::string> apply_overrides(Scene& scene, const RunCommand& command
     notes.push_back(fmt::format("--dt-fraction {:g}", *changes.dt_fraction));
   }
   for (const auto& setting : changes.settings) {
-    if (!setting.starts_with(quality_is)) set_analysis(scene, setting);
+    if (!setting.starts_with(quality_is)) set_analysis(scene, setting, script);
     notes.push_back("--set " + setting);
   }
   if (!changes.rule.empty()) {

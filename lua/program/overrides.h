@@ -5,8 +5,8 @@
 
 namespace erbs::lua {
 
-// Applies the overrides to the scene. Returns their text, for the log.
-std::vector<std::string> apply_overrides(Scene& scene, const RunCommand& command);
+// Applies the overrides to the scene of a script. Returns their text, for the log.
+std::vector<std::string> apply_overrides(Scene& scene, const RunCommand& command, Script& script);
 
 // Reads -D name=value. Throws Error.
 void read_defines(const std::vector<std::string>& defines, Overrides& overrides);

@@ -215,12 +215,38 @@ void Arguments::read(const std::string& key, std::string& into) {
   lua_pop(lua_, 1);
 }
 
+bool Arguments::is_filled_list() const { return lua_istable(lua_, -1) && lua_rawlen(lua_, -1) > 0; }
+
+void Arguments::each(const std::string& path, const std::function<void(const std::string& path)>& item) const {
+  if (!lua_istable(lua_, -1)) return;
+  refuse_keys(path);
+  const auto n = static_cast<lua_Integer>(lua_rawlen(lua_, -1));
+  for (lua_Integer i = 1; i <= n; ++i) {
+    lua_rawgeti(lua_, -1, i);
+    item(fmt::format("{}[{}]", path, i));
+    lua_pop(lua_, 1);
+  }
+}
+
+void Arguments::refuse_keys(const std::string& path) const {
+  const auto n = static_cast<lua_Integer>(lua_rawlen(lua_, -1));
+  for (lua_pushnil(lua_); lua_next(lua_, -2) != 0; lua_pop(lua_, 1)) {
+    if (lua_isinteger(lua_, -2) && lua_tointeger(lua_, -2) >= 1 && lua_tointeger(lua_, -2) <= n) continue;
+    mistake(lua_type(lua_, -2) == LUA_TSTRING
+                ? fmt::format("{} is a list and has a key \"{}\"; write its values alone", path, shown(lua_tostring(lua_, -2), 60))
+                : fmt::format("{} is a list with a gap (nil); give every value", path));
+    lua_pop(lua_, 2);
+    return;
+  }
+}
+
 std::optional<Vec3> Arguments::vector_at_top(const std::string& key, const std::string& path) const {
   if (!lua_istable(lua_, -1) || lua_rawlen(lua_, -1) != 3) {
     if (lua_istable(lua_, -1)) mistake(fmt::format("{} must be {{ x, y, z }}, not a table of {}", path, lua_rawlen(lua_, -1)));
     else wrong_type(key, path, "a vector { x, y, z }");
     return std::nullopt;
   }
+  refuse_keys(path);
   Vec3 vector = Vec3::Zero();
   bool valid = true;
   for (int i = 0; i < 3; ++i) {
@@ -244,12 +270,9 @@ void Arguments::read(const std::string& key, std::vector<double>& into) {
   if (!lua_istable(lua_, -1)) {
     wrong_type(key, key, "a list of numbers");
   } else {
-    const auto n = static_cast<lua_Integer>(lua_rawlen(lua_, -1));
-    for (lua_Integer i = 1; i <= n; ++i) {
-      lua_rawgeti(lua_, -1, i);
-      if (const auto value = number_at_top(key, fmt::format("{}[{}]", key, i))) into.push_back(*value);
-      lua_pop(lua_, 1);
-    }
+    each(key, [&](const std::string& path) {
+      if (const auto value = number_at_top(key, path)) into.push_back(*value);
+    });
   }
   lua_pop(lua_, 1);
 }
@@ -259,35 +282,23 @@ void Arguments::read(const std::string& key, std::vector<Vec3>& into) {
   if (!lua_istable(lua_, -1)) {
     wrong_type(key, key, "a list of vectors { x, y, z }");
   } else {
-    const auto n = static_cast<lua_Integer>(lua_rawlen(lua_, -1));
-    for (lua_Integer i = 1; i <= n; ++i) {
-      lua_rawgeti(lua_, -1, i);
-      into.push_back(vector_at_top(key, fmt::format("{}[{}]", key, i)).value_or(Vec3::Zero()));
-      lua_pop(lua_, 1);
-    }
+    each(key, [&](const std::string& path) { into.push_back(vector_at_top(key, path).value_or(Vec3::Zero())); });
   }
   lua_pop(lua_, 1);
 }
 
 void Arguments::read_pairs(const std::string& key, std::vector<Eigen::Vector2d>& into) {
   if (!push(key)) return;
-  const auto n = lua_istable(lua_, -1) ? static_cast<lua_Integer>(lua_rawlen(lua_, -1)) : 0;
-  if (n == 0) wrong_type(key, key, "a list of points { u, v }");
-  for (lua_Integer i = 1; i <= n; ++i) {
-    lua_rawgeti(lua_, -1, i);
-    Eigen::Vector2d pair(0, 0);
+  if (!is_filled_list()) wrong_type(key, key, "a list of points { u, v }");
+  each(key, [&](const std::string& path) {
     if (!lua_istable(lua_, -1) || lua_rawlen(lua_, -1) != 2) {
-      wrong_type(key, fmt::format("{}[{}]", key, i), "a point { u, v }");
-    } else {
-      for (int j = 0; j < 2; ++j) {
-        lua_rawgeti(lua_, -1, j + 1);
-        pair[j] = number_at_top(key, fmt::format("{}[{}][{}]", key, i, j + 1)).value_or(0.0);
-        lua_pop(lua_, 1);
-      }
+      wrong_type(key, path, "a point { u, v }");
+      return;
     }
-    into.push_back(pair);
-    lua_pop(lua_, 1);
-  }
+    std::vector<double> pair;
+    each(path, [&](const std::string& at) { pair.push_back(number_at_top(key, at).value_or(0.0)); });
+    into.emplace_back(pair[0], pair[1]);
+  });
   lua_pop(lua_, 1);
 }
 
@@ -305,14 +316,10 @@ void Arguments::read(const std::string& key, std::vector<std::string>& into) {
     into.clear();
     add(key);
   } else if (lua_istable(lua_, -1)) {
-    const auto n = static_cast<lua_Integer>(lua_rawlen(lua_, -1));
-    for (lua_Integer i = 1; i <= n; ++i) {
-      lua_rawgeti(lua_, -1, i);
-      const std::string path = fmt::format("{}[{}]", key, i);
+    each(key, [&](const std::string& path) {
       if (lua_type(lua_, -1) == LUA_TSTRING) add(path);
       else wrong_type(key, path, "a string");
-      lua_pop(lua_, 1);
-    }
+    });
   } else {
     wrong_type(key, key, "a string or a list of strings");
   }
@@ -321,23 +328,17 @@ void Arguments::read(const std::string& key, std::vector<std::string>& into) {
 
 void Arguments::read(const std::string& key, std::vector<std::vector<int>>& into) {
   if (!push(key)) return;
-  const auto rows = lua_istable(lua_, -1) ? static_cast<lua_Integer>(lua_rawlen(lua_, -1)) : 0;
-  if (rows == 0) wrong_type(key, key, "a list of lists of vertex numbers");
-  for (lua_Integer i = 1; i <= rows; ++i) {
-    lua_rawgeti(lua_, -1, i);
+  if (!is_filled_list()) wrong_type(key, key, "a list of lists of vertex numbers");
+  each(key, [&](const std::string& path) {
     std::vector<int> row;
-    const auto n = lua_istable(lua_, -1) ? static_cast<lua_Integer>(lua_rawlen(lua_, -1)) : 0;
-    if (n == 0) wrong_type(key, fmt::format("{}[{}]", key, i), "a list of vertex numbers");
-    for (lua_Integer j = 1; j <= n; ++j) {
-      lua_rawgeti(lua_, -1, j);
+    if (!is_filled_list()) wrong_type(key, path, "a list of vertex numbers");
+    each(path, [&](const std::string& at) {
       if (lua_isinteger(lua_, -1) && lua_tointeger(lua_, -1) >= 1 && lua_tointeger(lua_, -1) < 1000000)
         row.push_back(static_cast<int>(lua_tointeger(lua_, -1)) - 1);
-      else wrong_type(key, fmt::format("{}[{}][{}]", key, i, j), "a vertex number (from 1)");
-      lua_pop(lua_, 1);
-    }
+      else wrong_type(key, at, "a vertex number (from 1)");
+    });
     into.push_back(row);
-    lua_pop(lua_, 1);
-  }
+  });
   lua_pop(lua_, 1);
 }
 

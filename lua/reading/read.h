@@ -1,6 +1,7 @@
 // Reads the named keys of a table from a script. A mistake is noted with place, cause and remedy, and reading continues, so that the
 // user sees all mistakes of a scene at once.
 #pragma once
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -104,6 +105,10 @@ class Arguments {
   bool push(const std::string& key) const;  // pushes the raw value of the key; false, and nothing pushed, if it is nil
   void wrong_type(const std::string& key, const std::string& path, const char* wanted) const;
   std::optional<double> number_at_top(const std::string& key, const std::string& path) const;
+  // Of the value at the top of the stack.
+  bool is_filled_list() const;
+  void refuse_keys(const std::string& path) const;  // of a list
+  void each(const std::string& path, const std::function<void(const std::string& path)>& item) const;  // with the item at the top
   std::optional<Vec3> vector_at_top(const std::string& key, const std::string& path) const;
 
   Context* context_;

@@ -1,6 +1,9 @@
 #include "lua/reports/run_summary.h"
 
+#include <algorithm>
 #include <cstdio>
+#include <type_traits>
+#include <variant>
 
 #include "engine/analysis/diagnostics.h"
 #include "engine/record/format/json.h"
@@ -12,6 +15,19 @@
 
 namespace erbs::lua {
 namespace {
+
+std::string count_of(int n, const char* what) { return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s"); }
+
+// "3 blocks, 2 joints, 1 broken"; dry joints have no bond that could break.
+std::string size_text(const Scene& scene, const Json& metrics) {
+  const auto has_strength = [](const auto& law) {
+    return std::ranges::any_of(std::decay_t<decltype(law)>::fields(), [](const auto& field) { return field.name == "ft"; });
+  };
+  const bool bonds =
+      std::ranges::any_of(scene.joint_rules, [&](const JointRule& rule) { return !rule.none && std::visit(has_strength, rule.law); });
+  return count_of(metrics.value("blocks", 0), "block") + ", " + count_of(metrics.value("joints", 0), "joint") +
+         (bonds ? fmt::format(", {} broken", metrics.value("joints_broken", 0)) : "");
+}
 
 std::string collapse_text(const Analysis& how, const Json& metrics) {
   const Json* collapsed = find_key(metrics, "collapse.collapsed");
@@ -82,20 +98,18 @@ void print_summary(const Scene& scene, const std::string& directory, const Json&
                    std::size_t without_answer) {
   if (scene.push.quasi_static()) {
     const Json* performance = find_key(metrics, "capacity.performance");
-    say("{}: {}, {} in {}; {} blocks, {} joints, {} broken\n{}\n", scene.name, metrics.value("status", ""), scene.push.kind,
-        duration_text(number_at(metrics, "wall_s.total")), metrics.value("blocks", 0), metrics.value("joints", 0),
-        metrics.value("joints_broken", 0), capacity_text(scene.push, metrics));
+    say("{}: {}, {} in {}; {}\n{}\n", scene.name, metrics.value("status", ""), scene.push.kind,
+        duration_text(number_at(metrics, "wall_s.total")), size_text(scene, metrics), capacity_text(scene.push, metrics));
     if (performance) say("{}\n", performance_text(*performance));
   } else {
-    say("{}: {}, {:g} s simulated in {} ({:.3g} x real time); {} blocks, {} joints, {} broken\n", scene.name, metrics.value("status", ""),
-        number_at(metrics, "time_s"), duration_text(number_at(metrics, "wall_s.total")), number_at(metrics, "realtime_factor"),
-        metrics.value("blocks", 0), metrics.value("joints", 0), metrics.value("joints_broken", 0));
+    say("{}: {}, {:g} s simulated in {} ({:.3g} x real time); {}\n", scene.name, metrics.value("status", ""), number_at(metrics, "time_s"),
+        duration_text(number_at(metrics, "wall_s.total")), number_at(metrics, "realtime_factor"), size_text(scene, metrics));
     say("{}\nenergy residual {:.1e}\n{}\n", collapse_text(scene.analysis, metrics), number_at(metrics, "energy.residual_relative"),
         analysis::diagnostics_line(diagnostics_of(metrics)));
   }
   for (const auto& [name, unit] : scene.metric_units) {
     const Json* value = find_key(metrics, "metrics." + name);
-    say("  {} = {} {}\n", name, value && value->is_number() ? fmt::format("{:.6g}", value->get<double>()) : "none", unit);
+    say("  {} = {}\n", name, value && value->is_number() ? fmt::format("{:.6g} {}", value->get<double>(), unit) : "none");
   }
   if (without_answer > 0) say("studies without an answer: {}; see above, and their tables in {}/studies\n", without_answer, directory);
   int failed = 0;

@@ -50,6 +50,7 @@ struct Show {
   double fine_width = 0;          // m, of chamfers and mortar
   double open_crack = 0;          // m, a hundredth of the thinnest brick: a joint parted this far is drawn as open
   bool mortared = false;          // joints have thickness: mortar between the bricks, not an edge
+  std::string cut;                // "cut at x = 1.2 m" of a section; else empty
   double grid = 1;                // m, spacing of the lines on the ground
   std::vector<float> joint_area;  // m2 [joints]
   double scale = 1;               // m, m/s, J or Pa, the value that has the last colour of the map
@@ -83,8 +84,10 @@ std::vector<double> block_values(const MotionScene& scene, const MotionFrame& fr
 // The next of 1, 2 or 5 times a power of ten; `value` itself if it is one, up to rounding.
 double round_up(double value);
 
-// The scale of a colouring: what 98 % of the blocks never exceed in these frames, rounded up to 1, 2 or 5 times a power of ten.
-double color_scale(const MotionScene& scene, const std::vector<MotionFrame>& frames, Coloring coloring);
+// The scale of a colouring: what 98 % of the blocks never exceed in these frames, rounded up to 1, 2 or 5 times a power of ten. What a block
+// does outside of `seen`, as one that falls past the ground for ever, does not count; empty: all counts.
+double color_scale(const MotionScene& scene, const std::vector<MotionFrame>& frames, Coloring coloring,
+                   const Eigen::AlignedBox3d& seen = {});
 
 // Input of the shaders, 12 floats per block and 4 per joint, and the visible triangles.
 struct FrameTexels {

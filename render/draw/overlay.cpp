@@ -135,6 +135,7 @@ void Overlay::draw_title(Image& image, double t) const {
   std::string beside = run_.status.empty() ? camera_ : run_.status + "   " + camera_;
   if (std::abs(slow_ - 1) > 0.02)
     beside += slow_ > 1 ? fmt::format("   slow motion {:.3g} : 1", slow_) : fmt::format("   time lapse 1 : {:.3g}", 1 / slow_);
+  if (!show_.cut.empty()) beside = show_.cut + "   " + beside;
   if (look_.magnify != 1) beside = fmt::format("displacements x {:g}   ", look_.magnify) + beside;
   // Text beside the clock must not move: it ends at the start of the widest clock text.
   const double right = image.width - margin * u - bold_.width(widest_clock(run_), 24 * u) - 18 * u;
@@ -198,7 +199,7 @@ void Overlay::draw_times(Image& image, double top, double bottom, double now) co
     const double x = column(i * step * one);
     fill_box(image, x - 0.5 * u, bottom, x + 0.5 * u, bottom + 3 * u, quiet_ink);
     const Font::Align align = x + 14 * u > strip_right_ ? Font::Align::right : Font::Align::middle;
-    regular_.draw(image, fmt::format("{:g}{}", i * step, states ? "" : " s"), x, bottom + 14 * u, legible(11, u), quiet_ink, align);
+    regular_.draw(image, fmt::format("{}{:g}{}", states && i == 0 ? "state " : "", i * step, states ? "" : " s"), x, bottom + 14 * u, legible(11, u), quiet_ink, align);
   }
   double last = strip_left_;  // end of the previous name
   for (const Mark& mark : run_.marks) {

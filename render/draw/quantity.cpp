@@ -51,7 +51,7 @@ double round_up(double value) {
   return 10 * ten;
 }
 
-double color_scale(const MotionScene& scene, const std::vector<MotionFrame>& frames, Coloring coloring) {
+double color_scale(const MotionScene& scene, const std::vector<MotionFrame>& frames, Coloring coloring, const Eigen::AlignedBox3d& seen) {
   std::vector<double> largest;
   for (std::size_t b = 0; b < scene.blocks.size(); ++b)
     if (!scene.blocks[b].fixed) largest.push_back(0);
@@ -59,7 +59,8 @@ double color_scale(const MotionScene& scene, const std::vector<MotionFrame>& fra
     const std::vector<double> value = block_values(scene, frame, coloring);
     for (std::size_t b = 0, free = 0; b < value.size(); ++b)
       if (!scene.blocks[b].fixed) {
-        if (std::isfinite(value[b])) largest[free] = std::max(largest[free], value[b]);
+        const Vec3 at = Eigen::Map<const Eigen::Vector3f>(&frame.poses[7 * b]).cast<double>();
+        if (std::isfinite(value[b]) && (seen.isEmpty() || seen.contains(at))) largest[free] = std::max(largest[free], value[b]);
         ++free;
       }
   }

@@ -168,7 +168,7 @@ Show Scenery::show(const std::vector<double>& times) {
   const std::size_t stride = std::max<std::size_t>(1, times.size() / 24);
   if (is_quantity(movie_.look.coloring))
     for (std::size_t i = 0; i < times.size(); i += stride) some.push_back(drawn(times[i]));
-  show.scale = color_scale(excerpt_.scene, some, movie_.look.coloring);
+  show.scale = color_scale(excerpt_.scene, some, movie_.look.coloring, stage_.reach);
   if (!movie_.marks.any()) return show;
   double force = 0, speed = 0;
   for (std::size_t i = 0; i < times.size(); i += stride) {

@@ -297,8 +297,8 @@ Marks marks_of(const MarkChoice& choice, const MotionScene& scene, const Stage& 
   }
   if (choice.thrust) marks.legend.push_back({"line of thrust, " + force_text(scale.force), widest_thrust, thrust_color, false});
   if (choice.mechanism == "motion")
-    marks.legend.push_back({fmt::format("velocity, longest {:.3g} m/s", scale.speed), 2.4, motion_color, true});
-  else if (!choice.mechanism.empty()) marks.legend.push_back({"mechanism", 2.4, motion_color, true});
+    marks.legend.push_back({fmt::format("velocity, longest {:.3g} m/s; arcs: rotation", scale.speed), 2.4, motion_color, true});
+  else if (!choice.mechanism.empty()) marks.legend.push_back({"mechanism; arcs: rotation", 2.4, motion_color, true});
   return marks;
 }
 

@@ -20,7 +20,7 @@ constexpr double max_slip_omega_dt = 1.0;
 // Share of the energy that the forces on a loose block may err by if they end within an interval H, F^2 H^2 / (8 m), and how many such
 // errors all blocks may have together: as many as a sixth of them. A heap in which a block becomes fast lets its neighbours, each between
 // fast and slow forces, err at once.
-constexpr double block_share = 2e-9;
+constexpr double block_share = 1e-9;
 double interval_share(int blocks) { return block_share * std::max(16.0, blocks / 6.0); }
 
 }  // namespace

@@ -109,9 +109,9 @@ bool FormerJoints::soften(const ContactSettings& settings, const Sleep& sleep, d
     (fades ? crushing_ : reset_energy_) += (1 - kn) * now.elastic + (1 - ks) * p.tangential;  // not what a pair at rest would store (`now`)
     p.tangential *= ks;
     // The lost part of the force still does half a step of work on the way to the next pose, as friction does.
-    p.friction.force += (1 - kn) * (now.wrench.force - copy.friction.force);
-    p.friction.moment_a += (1 - kn) * (now.wrench.moment_a - copy.friction.moment_a);
-    p.friction.moment_b += (1 - kn) * (now.wrench.moment_b - copy.friction.moment_b);
+    p.friction.force += (1 - kn) * (now.wrench.force - copy.friction.force - copy.damping.force);
+    p.friction.moment_a += (1 - kn) * (now.wrench.moment_a - copy.friction.moment_a - copy.damping.moment_a);
+    p.friction.moment_b += (1 - kn) * (now.wrench.moment_b - copy.friction.moment_b - copy.damping.moment_b);
     any = true;
     const bool done = p.law.kn <= to.kn && p.law.ks <= to.ks;
     if (!state_.joints.share.empty()) note_share(i);

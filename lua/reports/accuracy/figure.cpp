@@ -189,7 +189,10 @@ std::string error_range(const AccuracyStudy& s, const View& view) {
         low = std::min(low, std::max(least, *error)), high = std::max(high, std::max(least, *error));
   if (high == 0) return "[*:*]";
   const double middle = std::sqrt(low * high), reach = std::max(std::sqrt(10.0), 2 * std::sqrt(high / low));
-  return fmt::format("[{:.4g}:{:.4g}]", middle / reach, middle * reach);
+  double from = middle / reach, to = middle * reach;
+  if (to < 100 * from)  // else only one number, a power of ten, might stand at the axis
+    from = std::pow(10.0, std::floor(std::log10(from))), to = std::pow(10.0, std::ceil(std::log10(to)));
+  return fmt::format("[{:.4g}:{:.4g}]", from, to);
 }
 
 std::vector<std::string> knobs_of(const std::vector<AccuracyStudy>& studies) {

@@ -3,6 +3,7 @@
 
 #include <catch2/catch.hpp>
 #include <chrono>
+#include <sstream>
 #include <thread>
 
 #include "engine/record/format/json.h"
@@ -52,6 +53,24 @@ std::vector<pid_t> processes_of(const std::string& folder) {
 int processes_that_name(const std::string& folder) { return int(processes_of(folder).size()); }
 
 }  // namespace
+
+TEST_CASE("with --log-json each line on stderr is JSON: progress, warnings and mistakes", "[endings]") {
+  Bench bench;
+  bench.write("a.lua", sliding + "print('two\\nlines')\nground_motion{ wave = sine{ amplitude = 1, frequency = 1 } }\n");
+  bench.write("b.lua", sliding + "box{ size = 3 }\nbox{ size = 4 }\n");
+  for (const auto& [scene, wanted] : {std::pair("a.lua", 0), {"b.lua", 2}}) {
+    const auto [code, said] = in_shell(bench, "", "run " + (bench.folder / scene).string() + " --log-json -o " + bench.out());
+    CHECK(code == wanted);
+    REQUIRE_FALSE(said.empty());
+    std::istringstream lines(said);
+    for (std::string line; std::getline(lines, line);) {
+      INFO(line);
+      const Json message = Json::parse(line, nullptr, false);
+      CHECK(message.is_object());
+    }
+    CHECK(contains(said, wanted == 0 ? "two\\nlines" : "size must be a vector"));
+  }
+}
 
 TEST_CASE("every signal that asks a run to end leaves a checkpoint, and it goes on to the same bits", "[endings]") {
   ::signal(SIGHUP, SIG_DFL);  // nohup ignores it, and children inherit that

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 
+#include "engine/record/format/json.h"
 #include "tests/support/places.h"
 #include "tests/unit/lua/bench.h"
 
@@ -303,6 +304,9 @@ TEST_CASE("options out of range are refused before anything is written", "[bad_i
       {{"--set", "bracket=2"}, "must be a number from 1e-06 to 0.5"},
       {{"--set", "step=5"}, "step = 5 is beyond up_to = 0.02"},
       {{"--set", "patern=3"}, "did you mean \"pattern\"?"},
+      {{"--set", "bracket=0.1*"}, "must be a number from 1e-06 to 0.5"},
+      {{"--set", "bracket={}"}, "must be a number from 1e-06 to 0.5"},
+      {{"--set", "gyroscopic=2"}, "must be true or false"},
       {{"--set", "path=3"}, "path may be a table, and --set takes numbers and words alone"},
       {{"--set", "brackt=0.1"}, "did you mean \"bracket\"?"}};
   for (const auto& [words, message] : of_push) {
@@ -312,7 +316,9 @@ TEST_CASE("options out of range are refused before anything is written", "[bad_i
   }
   CHECK(bench.run(pier, {"--set", "bracket=0.1"}) == 2);
   CHECK(contains(bench.said, "belongs to a push"));
-  CHECK(bench.run(push, {"--set", "bracket=0.1", "--set", "relaxation=local", "-q", "--no-figures"}) == 0);
+  CHECK(bench.run(push, {"--set", "bracket=0.2*0.5", "--set", "relaxation=local", "--set", "gyroscopic=false", "-q", "--no-figures"}) == 0);
+  CHECK(bench.run(pier, {"--set", "duration=20*ms", "-q", "--no-figures", "--force"}) == 0);
+  CHECK(read_json(bench.out() + "/metrics.json")["time_s"].get<double>() == Approx(0.02).margin(1e-3));
   CHECK(bench.erbs({"frobnicate"}) == 2);
   CHECK(contains(bench.said, "there is no verb frobnicate; known: run, check"));
   CHECK(bench.erbs({"chek"}) == 2);
@@ -369,4 +375,12 @@ TEST_CASE("what a script prints stands at the head of the run's log", "[program]
   REQUIRE(bench.run(pier + "print('five bricks whole')", {"-q"}) == 0);
   CHECK(bench.said.empty());
   CHECK(text_of(bench.out() + "/log.txt").starts_with("five bricks whole\n"));
+}
+
+TEST_CASE("a file that is no script is named as such", "[lua]") {
+  Bench bench;
+  for (const std::string& text : {std::string("{ \"status\": \"completed\" }"), std::string("\n<html>"), std::string("HDF\0\0", 5)}) {
+    CHECK(bench.run(text) == 2);
+    CHECK(contains(bench.said, ":1: this is no Lua script, as a scene is one"));
+  }
 }

@@ -33,6 +33,9 @@ TEST_CASE("a wrong type says what was wanted and what came", "[lua]") {
   CHECK(mentions(mistakes_in("box{ size = 3, material = 'brick' }"), "size must be a vector { x, y, z } in m, not the number 3"));
   CHECK(mentions(mistakes_in("box{ size = {1, 2}, material = 'brick' }"), "size must be { x, y, z }, not a table of 2"));
   CHECK(mentions(mistakes_in("box{ size = {1, true, 3}, material = 'brick' }"), "size[2] must be a number in m, not true"));
+  CHECK(mentions(mistakes_in("box{ size = {1, 2, 3, x = 4}, material = 'brick' }"), "size is a list and has a key \"x\""));
+  CHECK(mentions(mistakes_in("ground_motion{ wave = table_wave{ times = {0, 1, n = 2}, values = {0, 1} } }"), "has a key \"n\""));
+  CHECK(mentions(mistakes_in("prism{ polygon = {{0, 0}, {1, 0, z = 1}, {0, 1}}, length = 1, material = 'brick' }"), "has a key \"z\""));
   CHECK(mentions(mistakes_in("box 'b'"), "box takes a table of keys, not the string \"b\"; write box{ ... }"));
   CHECK(mentions(mistakes_in("joint{ law = 5 }"), "law must be a joint law"));
   CHECK(mentions(mistakes_in("analysis{ duration = 0/0 }"), "duration is not a number"));

@@ -228,6 +228,10 @@ TEST_CASE("colours show displacement, speed and opening on a scale of round numb
   CHECK(color_scale(scene, {frame}, Coloring::displacement) == Approx(0.5));
   CHECK(color_scale(scene, {frame}, Coloring::opening) == Approx(0.005));
   CHECK(color_scale(scene, {}, Coloring::displacement) == 1e-6);  // nothing moves
+  MotionFrame far = frame;
+  far.poses[9] -= 1000;  // falls past the ground for ever
+  const Eigen::AlignedBox3d seen(Vec3::Constant(-10), Vec3::Constant(10));
+  CHECK(color_scale(scene, {frame, far}, Coloring::displacement, seen) == Approx(0.5));
   magnify(scene, 10, frame);
   CHECK(frame.poses[7] == Approx(4));
   CHECK(frame.poses[17] == Approx(std::cos(1.0)));
