@@ -64,6 +64,7 @@ struct alignas(64) ContactPair {
   // (`release_to_contact`).
   Vec3 lift = Vec3::Zero();                     // m
   double lag = 0;                               // N, part of the dashpot that follows a blow with a lag (pair_law.h)
+  double blow_age = 0;                          // s, since the approach was as fast as peak_closing_speed
   double bound_share_a = 0, bound_share_b = 0;  // 1/s2, share of the pair in the bound of each block, at the last update
   int a = 0, b = 0;                             // blocks, a < b
   int part_a = 0, part_b = 0;                   // parts of them
@@ -139,7 +140,7 @@ void each(P& p, F&& f) {
   f("area", p.area), f("gyration", p.gyration), f("mean_normal_force", p.mean_normal_force), f("lent", p.lent),
       f("peak_closing_speed", p.peak_closing_speed), f("impact", p.impact);
   f("bound_share_a", p.bound_share_a), f("bound_share_b", p.bound_share_b);
-  f("friction", p.friction), f("damping", p.damping), f("lift", p.lift), f("lag", p.lag), f("tangential", p.tangential);
+  f("friction", p.friction), f("damping", p.damping), f("lift", p.lift), f("lag", p.lag), f("blow_age", p.blow_age), f("tangential", p.tangential);
 }
 template <class P, class F>
 requires std::is_same_v<std::remove_const_t<P>, PairList>

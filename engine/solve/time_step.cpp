@@ -9,6 +9,7 @@
 #include "engine/joints/kinematics.h"
 #include "engine/laws/yield.h"
 #include "engine/model/levels.h"
+#include "engine/solve/jolts.h"
 #include "engine/solve/step.h"
 
 namespace erbs {
@@ -192,11 +193,13 @@ void Solver::foresee_events() {
   }
   event_rate = std::max(first, state_.time.last_dt > 0 ? event_rate / state_.time.last_dt : 0);
   if (has_contacts_) event_rate = std::max(event_rate, contacts_.bound().event_rate(false));
+  const double jolts = jolt_rate(model_, state_, budget_, blow_share(model_));
+  event_rate = std::max(event_rate, jolts);
   const double falls = (loads_.now().gravity - loads_.now().ground).norm() *
                        std::sqrt(ledger_.mass() / (8 * budget_));  // in flight the net force is the weight
   const auto step = [&](double rate) { return rate > 0 ? 1 / (rate > trembling * falls ? std::max(rate, falls) : rate) : 0; };
   state_.time.event_dt = step(event_rate);
-  state_.time.slow_event_dt = has_contacts_ ? step(contacts_.bound().event_rate(true)) : 0;
+  state_.time.slow_event_dt = has_contacts_ ? step(std::max(jolts, contacts_.bound().event_rate(true))) : 0;
 }
 
 // A change of dt changes the energy of a block that vibrates on its springs by F^2 (dt_1^2 - dt_0^2) / (8 m). A longer step is allowed

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/model/box_at_rest.h"
+
 namespace erbs::analysis {
 namespace {
 
@@ -26,7 +28,8 @@ double begin_of(const Wave& wave) {
 }
 
 bool acts_between(const Wave& wave, double from, double to) {
-  constexpr double every = 1e-3;  // s
+  if (mean(wave, from, to) != 0) return true;  // a pulse may lie between two samples
+  constexpr double every = 1e-3;               // s
   const int samples = int(std::min((to - from) / every, 1e6)) + 100;
   for (int i = 0; i <= samples; ++i)
     if (value(wave, from + (to - from) * i / samples) != 0) return true;
@@ -65,18 +68,16 @@ std::string astray(const Load& load, const Scene& scene, const Model& model) {
     return "tilt: its axis is the line of gravity, so that nothing tilts; give a level axis, such as \"x\"";
   if (load.kind != Load::Kind::force || !load.has_point) return "";
   const auto b = std::size_t(std::ranges::find(model.block_name, load.block) - model.block_name.begin());
-  Eigen::AlignedBox3d box;
-  for (const Polyhedron& part : model.parts[b])
-    for (const Vec3& corner : part.vertices) box.extend(corner);
-  const double beyond = box.exteriorDistance(load.point);
+  const Eigen::AlignedBox3d box = box_at_rest(model, b);
+  const double beyond = box.exteriorDistance(Vec3(model.rest[b] + load.point));
   if (!(beyond > 1e-3 * box.sizes().maxCoeff())) return "";
   return fmt::format("{}: its point is {:.3g} m outside of the block, which it moves with as if by an arm; is it meant so?", name_of(load),
                      beyond);
 }
 
-// A displacement or a speed that is there at once, where the wave begins or the run does. `joined`: the block bears others, so that a speed
+// A displacement or a speed that is there at once, where the wave begins or the run does. `bears`: the block bears others, so that a speed
 // is a blow to them.
-std::string blow(const Load& load, double duration, bool joined) {
+std::string blow(const Load& load, double duration, bool bears) {
   const bool rotates = load.kind == Load::Kind::turning;
   const double begin = value(load.wave, 0) != 0 ? 0 : std::max(0.0, begin_of(load.wave));
   if (!(begin < duration)) return "";
@@ -87,17 +88,25 @@ std::string blow(const Load& load, double duration, bool joined) {
   if (std::fabs(jump) > 1e-6)  // m or rad
     return fmt::format("{}: it jumps to {:.4g} {} at {:g} s, within one step; {}", name_of(load), jump, rotates ? "rad" : "m", begin,
                        remedy);
-  if (joined && std::fabs(speed - before) > sudden_speed)
+  if (bears && std::fabs(speed - before) > sudden_speed)
     return fmt::format("{}: it starts at once with {:.3g} {} at {:g} s, a blow to what the block bears; {}", name_of(load), speed - before,
                        rotates ? "rad/s" : "m/s", begin, remedy);
   return "";
 }
 
+// True if a joint or, at rest, the box around another block touches the block.
+bool touches_others(const Model& model, std::size_t block) {
+  const auto is_of = [&](const Joint& joint) { return std::size_t(joint.a) == block || std::size_t(joint.b) == block; };
+  if (std::ranges::any_of(model.joint, is_of)) return true;
+  const Eigen::AlignedBox3d own = box_at_rest(model, block);
+  for (std::size_t b = 0; b < model.kind.size(); ++b)
+    if (model.kind[b] == Kind::moving && own.exteriorDistance(box_at_rest(model, b)) < 1e-6 * own.sizes().norm()) return true;
+  return false;
+}
+
 }  // namespace
 
 std::vector<std::string> warnings_of_loads(const Scene& scene, const Model& model) {
-  std::vector<bool> joined(scene.blocks.size(), false);
-  for (const Joint& joint : model.joint) joined[std::size_t(joint.a)] = joined[std::size_t(joint.b)] = true;
   struct Doubt {
     const Load* load;
     std::string text;
@@ -109,7 +118,7 @@ std::vector<std::string> warnings_of_loads(const Scene& scene, const Model& mode
     if (text.empty()) text = astray(load, scene, model);
     if (text.empty() && (load.kind == Load::Kind::motion || load.kind == Load::Kind::turning)) {
       const auto block = std::find_if(scene.blocks.begin(), scene.blocks.end(), [&](const Block& b) { return b.name == load.block; });
-      text = blow(load, scene.analysis.duration, joined[std::size_t(block - scene.blocks.begin())]);
+      text = blow(load, scene.analysis.duration, touches_others(model, std::size_t(block - scene.blocks.begin())));
     }
     if (text.empty()) continue;
     const auto same = std::find_if(doubts.begin(), doubts.end(), [&](const Doubt& d) { return d.load->place.text() == load.place.text(); });

@@ -39,7 +39,7 @@ void set_lane(PairPackOf<n>& w, int l, ContactPair& pair, const ContactBlock& re
   w.other[l] = other.u.data();
   w.swapped[l] = pair.b_is_reference;
   w.contact_count[l] = contact_count;
-  w.lag[l] = pair.lag;
+  w.lag[l] = pair.lag, w.blow_age[l] = pair.blow_age;
 }
 
 }  // namespace erbs

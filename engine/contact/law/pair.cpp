@@ -73,7 +73,7 @@ void press(ContactPair& pair, const PairFrame& s, Patch& patch, const PairSettin
   limit_friction(w, settings, new_here);
   scalar::finish<double>(w, settings);
   scalar::write(w.p, pair_rows, &pair.law.kn);
-  pair.lag = w.lag[0];
+  pair.lag = w.lag[0], pair.blow_age = w.blow_age[0];
   scalar::write(w.result, result_rows, result.wrench.force.data());
   result.touching = true;
 }

@@ -102,7 +102,7 @@ void write_back(const PairTask* task, int count, unsigned left_out, const PairPa
   for (int l = 0; l < count; ++l) {
     if ((left_out >> l & 1u) != 0) continue;
     task[l].pair->touching = 1;
-    task[l].pair->lag = w.lag[l];
+    task[l].pair->lag = w.lag[l], task[l].pair->blow_age = w.blow_age[l];
     task[l].result->touching = true;
   }
 }

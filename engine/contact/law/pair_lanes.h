@@ -28,6 +28,7 @@ struct alignas(64) PairPackOf {
   Row closing_speed;                             // m/s
   Row inverse_mass, chi, limit;                  // of the dashpot
   Row lag, lag_stiffness, lag_keeps, lag_takes;  // N, as in ContactPair; over kn A; shares of the last lag and of the capped dashpot
+  Row blow_age;                                  // s, as in ContactPair
   Row damping[4];                                // total and first moment from `ClipKernels::damp`, kn = 1
   // Friction: springs with their slip, dashpots, and the part within the limit.
   Row u0[3], psi0, u1[3], psi1, kt, kr, springs[3], torsion, dashpots[3], dashpot_torsion, lever[3], held, most, radius, share;

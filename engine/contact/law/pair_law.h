@@ -63,8 +63,9 @@ static void patch(PairPackFor<T>& w, const PairSettings& set) {
 // What a blow wants of its dashpot beyond the cap. Where a heavy body lands on a light one, the blow lasts as the heavy one swings, but
 // the step bears a dashpot of the light one alone: with it .85 of the speed was left where .48 should be (V67). The rest acts in series
 // with a spring of `lag_stiffness` kn A (Maxwell's element; beside the spring of the contact Zener's solid). To the trembling of the light
-// body it is a spring, which the step bears once it is shorter by the root of 1 + lag_stiffness at most; to the blow it is the dashpot.
-// With lag_stiffness = 2 X it follows in half the time, depth / v_i, in which the bodies sink in.
+// body it is a spring, which the step bears once it is shorter by the root of 1 + lag_stiffness at most (`slip_omega2` asks for it); until
+// then the spring is only as stiff as the step bears. To the blow it is the dashpot. With lag_stiffness = 2 X it follows in half the time,
+// depth / v_i, in which the bodies sink in.
 //
 // Only blows lag: faster than a few times the reference speed, `lag_from` times stronger than the cap, and no deeper than all moving blocks
 // as one body would press at their speed: what a motion presses deeper is no blow.
@@ -77,7 +78,7 @@ ERBS_INLINE void begin_lag(PairPackFor<T>& w, const PairSettings& set, T wanted,
   const T blow = wanted * min(1, deepest / nonzero(depth)), strong = min(blow / nonzero(set.lag_from * chi) - 1, 1);
   const T beyond = max(blow - chi, 0) * max(strong, 0) * max(1 - slow * slow, 0);                                     // s/m
   const T whole = beyond * depth / nonzero(set.dt), stiffness = min(whole, lag_per_impact * load<T>(w.p[p_impact]));  // over kn A
-  const T tracks = stiffness / nonzero(whole);
+  const T borne = max(1 / nonzero(spring * inverse_mass * (set.dt * set.dt)) - 1, 0), tracks = min(stiffness, borne) / nonzero(whole);
   store(w.lag_stiffness, select(inverse_mass > 0, stiffness, T(0)));
   store(w.lag_keeps, select(stiffness > 0, 1 - tracks, T(0)));
   store(w.lag_takes, tracks * beyond / nonzero(chi));
@@ -99,10 +100,15 @@ static void dashpot(PairPackFor<T>& w, const PairSettings& set) {
       load<T>(w.r[b_mass]) + load<T>(w.o[b_mass]) + dot(r, columns<T>(w.r + b_tensor) * r) + dot(o, columns<T>(w.o + b_tensor) * o);
   const T before = load<T>(w.p[p_peak_closing_speed]), kn = load<T>(w.p[p_kn]), impact = load<T>(w.p[p_impact]), total = load<T>(w.total),
           area = load<T>(w.area);
-  // slow decay against the duration of a soft impact (about 3 depth / speed on a corner)
+  // A blow of a face on one spring lasts pi over its circular frequency: until some time after, its speed is not forgotten. Then it decays
+  // slowly against the duration of a soft impact (about 3 depth / speed on a corner).
+  constexpr double blow_angle = 6;
   const T memory = select(before > 0, max(set.memory, 30 * load<T>(w.max_depth) / nonzero(before)), T(set.memory));
-  const T forgotten = before * (1 - min(1, set.dt / memory));
-  const T peak_closing_speed = max(max(forgotten, load<T>(w.closing_speed)), set.reference_speed);
+  const T age = load<T>(w.blow_age), closing_speed = load<T>(w.closing_speed);
+  const MaskFor<T> lasts = kn * area * inverse_mass * (age * age) < blow_angle * blow_angle;
+  const T remembered = select(lasts, before, before * (1 - min(1, set.dt / memory)));
+  const T peak_closing_speed = max(max(remembered, closing_speed), set.reference_speed);
+  store(w.blow_age, select(closing_speed > remembered, T(0), age + set.dt));
   // fades with speed: restitution governs an impact
   const T slow = set.reference_speed / peak_closing_speed, share = set.settling * slow * slow;
   const T pressing = kn * nonzero(total);
@@ -144,10 +150,16 @@ ERBS_INLINE void store_wrench(Lanes<T>* x, const Wrench<T>& w, MaskFor<T> swappe
   store3(x + 6, select(swapped, w.reference, w.other));
 }
 
-// Adds the lagging part to the capped dashpot, at the centre of pressure: the rocking of the faces is damped by the capped one alone.
+// Contact does not pull: of a wedge that leans, one face may press back, and the dashpot, which those that press forward make, exceeds the
+// net pressure. Adds the lagging part to the capped dashpot, at the centre of pressure: the rocking of the faces is damped by the capped
+// one alone.
 template <class T>
 static void lagging(PairPackFor<T>& w) {
-  const T last = load<T>(w.lag), size = load<T>(w.size), limit = load<T>(w.limit), total = load<T>(w.damping[0]), kn = load<T>(w.p[p_kn]);
+  const T last = load<T>(w.lag), size = load<T>(w.size), limit = load<T>(w.limit), pressing = load<T>(w.damping[0]),
+          kn = load<T>(w.p[p_kn]);
+  const T total = max(pressing, -size), less = select(pressing < -size, total / select(pressing < 0, pressing, T(-1)), T(1));
+  store(w.damping[0], total);
+  for (int i = 0; i < 3; ++i) store(w.damping[1 + i], less * load<T>(w.damping[1 + i]));
   const MaskFor<T> lags = load<T>(w.lag_stiffness) > 0;
   store(w.lag, T(0));  // never -0: the bits of a pair must not depend on its neighbours in the pack
   if (!any(lags)) return;

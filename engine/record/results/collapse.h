@@ -1,6 +1,6 @@
 // Criterion of collapse. A block has fallen if its centroid is lower than at the start, relative to the ground, by more than half its
-// thinnest extent. The structure has collapsed if the fallen share of the moving mass reaches `Analysis::collapse_fraction`. What is thrown
-// at the structure is no part of it, and counts in neither mass.
+// thinnest extent; what a driven support that bears it has been lowered by is no fall. The structure has collapsed if the fallen share of
+// the moving mass reaches `Analysis::collapse_fraction`. What is thrown at the structure is no part of it, and counts in neither mass.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -17,16 +17,17 @@
 namespace erbs {
 
 struct Collapse {
-  std::vector<double> start;         // m, height of each centroid above rest, at the start [nblock]
-  std::vector<std::uint8_t> thrown;  // the block flies by itself from the start (thrown_blocks) [nblock]
-  std::vector<std::uint8_t> fallen;  // the block has fallen at some time [nblock], ...
-  std::vector<double> fall_time;     // s, ... for the first time at this one [nblock]
-  double fallen_fraction = 0;        // fallen share of the moving mass, now
-  bool collapsed = false;            // the share has once reached Analysis::collapse_fraction
-  double time = 0;                   // s, at which the share reached it
-  bool under_gravity = false;        // the structure cannot stand under its own weight: a collapse without a cause in time
-  bool moved = false;                // a block has moved by Analysis::stop_when_moved from rest
-  Mechanism mechanism;               // at the collapse
+  std::vector<double> start;              // m, height of each centroid above rest, at the start [nblock]
+  std::vector<std::vector<int>> bearers;  // driven blocks that bear the block at rest [nblock]; empty if none is driven
+  std::vector<std::uint8_t> thrown;       // the block flies by itself from the start (thrown_blocks) [nblock]
+  std::vector<std::uint8_t> fallen;       // the block has fallen at some time [nblock], ...
+  std::vector<double> fall_time;          // s, ... for the first time at this one [nblock]
+  double fallen_fraction = 0;             // fallen share of the moving mass, now
+  bool collapsed = false;                 // the share has once reached Analysis::collapse_fraction
+  double time = 0;                        // s, at which the share reached it
+  bool under_gravity = false;             // the structure cannot stand under its own weight: a collapse without a cause in time
+  bool moved = false;                     // a block has moved by Analysis::stop_when_moved from rest
+  Mechanism mechanism;                    // at the collapse
 };
 
 template <class C, class F>

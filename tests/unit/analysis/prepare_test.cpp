@@ -160,6 +160,7 @@ TEST_CASE("a ground that stays still is told", "[analysis]") {
   CHECK(told("sine{ amplitude = 0, frequency = 2 }"));
   CHECK(told("sine{ amplitude = 1, frequency = 2, start = 3 }"));
   CHECK_FALSE(told("sine{ amplitude = 1, frequency = 1000 }"));
+  CHECK_FALSE(told("pulse{ amplitude = 1e4, start = .50003, duration = 1e-4 }"));
 }
 
 TEST_CASE("loads that begin after the run, and supports that jump, are told", "[analysis]") {

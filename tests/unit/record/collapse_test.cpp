@@ -2,7 +2,9 @@
 
 #include <catch2/catch.hpp>
 
+#include "engine/analysis/start/prepare.h"
 #include "engine/record/results/course.h"
+#include "lua/language/script.h"
 #include "tests/unit/record/two_bricks.h"
 
 using namespace erbs;
@@ -75,6 +77,39 @@ TEST_CASE("supports that are moved down have not fallen", "[record][collapse]") 
   t.state.pose.u[0].z() = -1;
   CHECK_FALSE(update(c, t.model, t.state.pose, 1.0));
   CHECK(c.fallen_fraction == 0);
+}
+
+TEST_CASE("what rides on a support that is lowered has not fallen, with a joint or without", "[record][collapse]") {
+  lua::Script script(lua::Script::Options{.quiet = true});
+  const Scene scene = script.load_text(R"(
+    material{ name = "s", density = 2000 } ground{ size = 20 }
+    for i = 0, 1 do
+      box{ name = "plate"..i, size = {1, 1, .1}, at = {2 * i, 0, 0} }
+      motion{ block = "plate"..i, direction = "z", wave = curve_wave{ times = {0, 1}, values = {0, -.3}, hold = true } }
+      for k = 0, 2 do box{ name = "b"..i..k, group = i == 0 and "joined" or "loose", size = {.3, .2, .1}, at = {2 * i, 0, .1 + .1 * k}, free = i == 1 } end
+    end
+    box{ name = "aside", size = {.3, .2, .1}, at = {5, 0, 0}, free = true }
+    joint{ law = dry{ kn = 1e9, mu = .6 } }
+    gravity(g) analysis{ duration = 1 }
+  )",
+                                       "lowered.lua", {});
+  analysis::Prepared run = analysis::prepare(scene, false);
+  const auto block = [&](const std::string& name) {
+    return std::size_t(std::ranges::find(run.model.block_name, name) - run.model.block_name.begin());
+  };
+  Collapse c = watch_collapse(run.model, run.state.pose);
+  BlockPoses& pose = run.state.pose;
+  for (const char* name : {"plate0", "plate1", "b00", "b01", "b02", "b10", "b11", "b12"}) pose.u[block(name)].z() = -.3;
+  update(c, run.model, pose, 1.0);
+  CHECK(c.fallen_fraction == 0);
+  for (const char* name : {"b02", "b12"}) pose.u[block(name)].z() = -.36;
+  std::vector<int> newly;
+  CHECK(update(c, run.model, pose, 2.0, &newly));
+  CHECK(newly == std::vector<int>{int(block("b02")), int(block("b12"))});
+  pose.u[block("aside")].z() = -.06;
+  newly.clear();
+  update(c, run.model, pose, 3.0, &newly);
+  CHECK(newly == std::vector<int>{int(block("aside"))});
 }
 
 TEST_CASE("the direction is the unit mean, and none where blocks fall every way", "[record][collapse]") {

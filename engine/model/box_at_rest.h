@@ -1,0 +1,16 @@
+// The box along the axes of the scene around a block where it is at rest.
+#pragma once
+#include <Eigen/Geometry>
+
+#include "engine/model/model.h"
+
+namespace erbs {
+
+inline Eigen::AlignedBox3d box_at_rest(const Model& model, std::size_t b) {
+  Eigen::AlignedBox3d box;
+  for (const Polyhedron& part : model.parts[b])
+    for (const Vec3& corner : part.vertices) box.extend(Vec3(model.rest[b] + corner));
+  return box;
+}
+
+}  // namespace erbs
