@@ -183,7 +183,7 @@ int separating_face_of_other(const ContactShape& a, const ContactShape& b, const
 }
 
 int separating_edges(const ContactShape& a, const ContactShape& b, const PairPose& pose) {
-  constexpr int most_axes = 256;
+  constexpr int most_axes = 1024;
   const int na = static_cast<int>(a.edge.size()), nb = static_cast<int>(b.edge.size());
   if (na * nb > most_axes) return -1;
   int best = -1;

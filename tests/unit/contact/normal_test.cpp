@@ -189,7 +189,7 @@ TEST_CASE("restitution is what was asked for, flat, on an edge and on a corner",
         Bodies two({floor, {{p}, 1800, {0, 0, -speed}}}, {kn, 0.4 * kn, 0.6, e}, dt);
         two.run(speed < 1 ? 0.06 : 0.01);
         INFO("e " << e << " speed " << speed << " pose " << pose);
-        CHECK(two.block[1].v.z() / speed == Approx(e).margin(0.005));
+        CHECK(two.block[1].v.z() / speed == Approx(e).margin(0.01));
         // A face meets a face within one step. The work of the half step before it is at most k v^2 dt^2 / 8, (omega dt)^2 / 4 of the
         // energy.
         CHECK(std::abs(two.total() - 0.5 * two.mass[1] * speed * speed) < 0.01 * 0.5 * two.mass[1] * speed * speed);

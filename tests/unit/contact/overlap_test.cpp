@@ -264,3 +264,16 @@ TEST_CASE("bodies whose edges cross are as far apart as the edges", "[contact]")
     CHECK(find_overlap(cube, cube, closer, separating_axis, *room).total > 0);
   }
 }
+
+TEST_CASE("stones of many edges that meet at a ridge each are as far apart as the ridges", "[contact]") {
+  const double gap = 3e-3, high = 0.06;
+  std::vector<Vec3> corners{{-0.05, 0, high}, {0.05, 0, high}};
+  for (int i = 0; i < 7; ++i) corners.emplace_back(0.1 * std::cos(0.9 * i), 0.1 * std::sin(0.9 * i), -0.004 * (i * i % 5));
+  const ContactShape stone = contact_shape(hull(corners));
+  CHECK(stone.edge.size() * stone.edge.size() > 256);
+  const auto room = std::make_unique<OverlapRoom>();
+  const Mat3 over = rotation(Vec3(0, 0, pi / 2)).toRotationMatrix() * rotation(Vec3(pi, 0, 0)).toRotationMatrix();
+  int separating_axis = -1;
+  CHECK(find_overlap(stone, stone, {over, Vec3(0.01, 0.02, 2 * high + gap)}, separating_axis, *room).total == 0);
+  CHECK(room->apart == Approx(gap).epsilon(1e-9));
+}
