@@ -51,7 +51,8 @@ std::string did_you_mean(std::string_view word, const std::vector<std::string>& 
   constexpr size_t most = 40;
   const size_t shown = std::min(known.size(), most);
   const std::vector<std::string> first(known.begin(), known.begin() + static_cast<std::ptrdiff_t>(shown));
-  return fmt::format("; known: {}{}", fmt::join(first, ", "), shown < known.size() ? fmt::format(" and {} more", known.size() - shown) : "");
+  return fmt::format("; known: {}{}", fmt::join(first, ", "),
+                     shown < known.size() ? fmt::format(" and {} more", known.size() - shown) : "");
 }
 
 }  // namespace erbs

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cctype>
-#include <nlohmann/json.hpp>
 
 #include "engine/base/error.h"
 
@@ -62,6 +61,13 @@ void each_letter(std::string_view text, Plain&& plain, Other&& other) {
 
 bool as_json = false;
 
+// Of printable text, which has no control characters but line ends and tabs.
+std::string as_json_line(std::string_view text) {
+  std::string out = "{\"message\":\"";
+  for (const char c : text) out += c == '\n' ? "\\n" : c == '\t' ? "\\t" : c == '"' ? "\\\"" : c == '\\' ? "\\\\" : std::string(1, c);
+  return out + "\"}\n";
+}
+
 }  // namespace
 
 bool is_plain(std::string_view text) {
@@ -111,7 +117,7 @@ void tell(std::FILE* to, std::string_view text) {
     all += '\n';
     begin = end + 1;
   }
-  if (as_json && to == stderr) all = nlohmann::json{{"message", all.substr(0, all.size() - 1)}}.dump() + "\n";
+  if (as_json && to == stderr) all = as_json_line(all.substr(0, all.size() - 1));
   std::fwrite(all.data(), 1, all.size(), to);
 }
 

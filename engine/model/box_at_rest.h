@@ -1,7 +1,6 @@
 // The box along the axes of the scene around a block where it is at rest.
 #pragma once
-#include <Eigen/Geometry>
-
+#include "engine/base/vec.h"
 #include "engine/model/model.h"
 
 namespace erbs {

@@ -140,7 +140,8 @@ void each(P& p, F&& f) {
   f("area", p.area), f("gyration", p.gyration), f("mean_normal_force", p.mean_normal_force), f("lent", p.lent),
       f("peak_closing_speed", p.peak_closing_speed), f("impact", p.impact);
   f("bound_share_a", p.bound_share_a), f("bound_share_b", p.bound_share_b);
-  f("friction", p.friction), f("damping", p.damping), f("lift", p.lift), f("lag", p.lag), f("blow_age", p.blow_age), f("tangential", p.tangential);
+  f("friction", p.friction), f("damping", p.damping), f("lift", p.lift), f("lag", p.lag), f("blow_age", p.blow_age),
+      f("tangential", p.tangential);
 }
 template <class P, class F>
 requires std::is_same_v<std::remove_const_t<P>, PairList>

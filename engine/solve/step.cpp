@@ -150,7 +150,7 @@ void Solver::transitions() {
   const bool may_release = model_.analysis.debris && joints_.any_cracked() && every(model_.release_every, time);
   if (has_contacts_) contacts_.end_sums(has_levels(time), loads_);
   if (time.step == 0) {  // contacts present at the start, blows soon after it and joints that yield at once limit the first drift
-    const double blows = has_contacts_ ? contacts_.bound().event_rate() : 0, 
+    const double blows = has_contacts_ ? contacts_.bound().event_rate() : 0,
                  jolts = budget_ > 0 ? jolt_rate(model_, state_, budget_, blow_share(model_)) : 0,
                  rate = std::max({blows, event_rate_at_start(), jolts});
     if (rate > 0) time.event_dt = 1 / rate;

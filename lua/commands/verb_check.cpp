@@ -71,10 +71,11 @@ void print_results(const Scene& scene, const Model& model, double steps, std::si
   const double bytes = rows * (energy_row + column * double(columns)) + frames * block * model.nblock;
   say("results: {:g} rows and {:g} frames, about {:.2g} MB\n", rows, frames, 1e-6 * bytes);
   if (bytes > much)
-    tell(stderr, fmt::format("warning: {}: analysis: results of about {:.2g} GB ({:.3g} rows, output_dt = {:g} s; {:.3g} frames, frame_dt = "
-                             "{:g} s); say a longer {}",
-                             a.place.text(), 1e-9 * bytes, rows, a.output_dt, frames, a.frame_dt,
-                             rows * (energy_row + column * double(columns)) > 0.5 * bytes ? "output_dt" : "frame_dt"));
+    tell(stderr,
+         fmt::format("warning: {}: analysis: results of about {:.2g} GB ({:.3g} rows, output_dt = {:g} s; {:.3g} frames, frame_dt = "
+                     "{:g} s); say a longer {}",
+                     a.place.text(), 1e-9 * bytes, rows, a.output_dt, frames, a.frame_dt,
+                     rows * (energy_row + column * double(columns)) > 0.5 * bytes ? "output_dt" : "frame_dt"));
 }
 
 void print_run(const Scene& scene, const analysis::Prepared& run, std::size_t columns) {

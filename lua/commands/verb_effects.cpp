@@ -159,8 +159,8 @@ void draw(const std::vector<EffectRow>& rows, const std::string& scene, const st
 }
 
 void print_legend(const std::vector<EffectRow>& rows, const Noise& noise, const Measured& all) {
-  const auto within = std::ranges::count_if(
-      rows, [&](const EffectRow& r) { return r.without.trouble.empty() && std::fabs(r.percent) < noise.percent; });
+  const auto within =
+      std::ranges::count_if(rows, [&](const EffectRow& r) { return r.without.trouble.empty() && std::fabs(r.percent) < noise.percent; });
   say("\n%: of a step; below zero, the rest of a step costs more without the effect. steps %: of the run's steps; below zero, more steps "
       "without it\nmoves: change of the metric that changes most, in % of its larger value; from 100 on, it changes its sign, or the "
       "verdict changes\ntwo equal runs of {:.2g} s differ by {:.1f} % in their time, so that costs below {:.0f} % are noise: {} of {} "

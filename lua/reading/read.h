@@ -107,7 +107,7 @@ class Arguments {
   std::optional<double> number_at_top(const std::string& key, const std::string& path) const;
   // Of the value at the top of the stack.
   bool is_filled_list() const;
-  void refuse_keys(const std::string& path) const;  // of a list
+  void refuse_keys(const std::string& path) const;                                                     // of a list
   void each(const std::string& path, const std::function<void(const std::string& path)>& item) const;  // with the item at the top
   std::optional<Vec3> vector_at_top(const std::string& key, const std::string& path) const;
 

@@ -84,8 +84,8 @@ std::vector<double> block_values(const MotionScene& scene, const MotionFrame& fr
 // The next of 1, 2 or 5 times a power of ten; `value` itself if it is one, up to rounding.
 double round_up(double value);
 
-// The scale of a colouring: what 98 % of the blocks never exceed in these frames, rounded up to 1, 2 or 5 times a power of ten. What a block
-// does outside of `seen`, as one that falls past the ground for ever, does not count; empty: all counts.
+// The scale of a colouring: what 98 % of the blocks never exceed in these frames, rounded up to 1, 2 or 5 times a power of ten. What a
+// block does outside of `seen`, as one that falls past the ground for ever, does not count; empty: all counts.
 double color_scale(const MotionScene& scene, const std::vector<MotionFrame>& frames, Coloring coloring,
                    const Eigen::AlignedBox3d& seen = {});
 

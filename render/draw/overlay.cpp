@@ -199,7 +199,8 @@ void Overlay::draw_times(Image& image, double top, double bottom, double now) co
     const double x = column(i * step * one);
     fill_box(image, x - 0.5 * u, bottom, x + 0.5 * u, bottom + 3 * u, quiet_ink);
     const Font::Align align = x + 14 * u > strip_right_ ? Font::Align::right : Font::Align::middle;
-    regular_.draw(image, fmt::format("{}{:g}{}", states && i == 0 ? "state " : "", i * step, states ? "" : " s"), x, bottom + 14 * u, legible(11, u), quiet_ink, align);
+    regular_.draw(image, fmt::format("{}{:g}{}", states && i == 0 ? "state " : "", i * step, states ? "" : " s"), x, bottom + 14 * u,
+                  legible(11, u), quiet_ink, align);
   }
   double last = strip_left_;  // end of the previous name
   for (const Mark& mark : run_.marks) {

@@ -78,7 +78,7 @@ ERBS_INLINE void begin_lag(PairPackFor<T>& w, const PairSettings& set, T wanted,
   const T blow = wanted * min(1, deepest / nonzero(depth)), strong = min(blow / nonzero(set.lag_from * chi) - 1, 1);
   const T beyond = max(blow - chi, 0) * max(strong, 0) * max(1 - slow * slow, 0);                                     // s/m
   const T whole = beyond * depth / nonzero(set.dt), stiffness = min(whole, lag_per_impact * load<T>(w.p[p_impact]));  // over kn A
-  const T borne = max(1 / nonzero(spring * inverse_mass * (set.dt * set.dt)) - 1, 0), tracks = min(stiffness, borne) / nonzero(whole);
+  const T allowed = max(1 / nonzero(spring * inverse_mass * (set.dt * set.dt)) - 1, 0), tracks = min(stiffness, allowed) / nonzero(whole);
   store(w.lag_stiffness, select(inverse_mass > 0, stiffness, T(0)));
   store(w.lag_keeps, select(stiffness > 0, 1 - tracks, T(0)));
   store(w.lag_takes, tracks * beyond / nonzero(chi));

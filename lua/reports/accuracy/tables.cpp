@@ -93,8 +93,8 @@ void print_settings(const AccuracyStudy& s) {
   say("{}: {}\n{} = {:.8g} {} by {}{}\n", s.name, s.title, q.name, q.reference, q.unit, q.from,
       q.uncertainty > 0 ? fmt::format(", uncertainty {:.2g}", q.uncertainty) : "");
   if (q.expected)
-    say("its own limit, which finer steps and points lead to, is {:.8g} {}, uncertainty {:.2g}; errors against both are in {}\n", q.own_limit,
-        q.unit, q.own_uncertainty, q.reference != 0 ? fmt::format("% of {:.8g} {}", q.reference, q.unit) : q.unit);
+    say("its own limit, which finer steps and points lead to, is {:.8g} {}, uncertainty {:.2g}; errors against both are in {}\n",
+        q.own_limit, q.unit, q.own_uncertainty, q.reference != 0 ? fmt::format("% of {:.8g} {}", q.reference, q.unit) : q.unit);
   say("\n{:<22}  {:<32}  {:>14}  {:>12}  {:>12}  {:>9}  {:>12}\n", "knob", "setting", "value", "error", "to own limit", "cpu s",
       "evaluations");
   std::vector<std::size_t> order(s.all.size());
