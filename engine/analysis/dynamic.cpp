@@ -102,6 +102,7 @@ void Run::begin() {
     const std::vector<std::size_t> sizes = sizes_of(run_.state);
     read_checkpoint(options_.directory, key_, run_.state, written, collapse_, output_, diagnostics_);
     check_sizes(options_.directory, sizes, run_.state);
+    collapse_.supports.ride = rides_of(run_.model);
   } else {
     const BlockVec3 built = run_.state.pose.u;
     start_at_rest(scene_, run_, options_.threads, told_at_start(options_, born_));

@@ -8,7 +8,7 @@ namespace erbs {
 inline Eigen::AlignedBox3d box_at_rest(const Model& model, std::size_t b) {
   Eigen::AlignedBox3d box;
   for (const Polyhedron& part : model.parts[b])
-    for (const Vec3& corner : part.vertices) box.extend(Vec3(model.rest[b] + corner));
+    for (const Vec3& corner : part.vertices) box.extend(corner);
   return box;
 }
 

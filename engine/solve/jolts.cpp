@@ -13,6 +13,10 @@ namespace {
 
 constexpr int ahead = foresee_every + 2;  // steps: one that is about to be planned and those until the next prediction
 
+constexpr int first_steps = 2 * ahead;  // in which blocks at rest need not touch yet what bears them
+// A leap of a motion is a jump of its place: its speed grows as the step shrinks, which would have no end.
+constexpr double most_shortened = 64;
+
 using Gains = std::array<double, ahead + 1>;  // of speed, as a load gives it in each step from the last one on
 
 // Greatest gain within two steps beyond what the load gives all the time.
@@ -42,8 +46,14 @@ double jump_of_path(const Wave& wave, double t, double dt) {
 double reach_of(const Model& m, int b) {
   double reach = 0;
   for (const Polyhedron& part : m.parts[z(b)])
-    for (const Vec3& corner : part.vertices) reach = std::max(reach, corner.norm());
+    for (const Vec3& corner : part.vertices) reach = std::max(reach, (corner - m.rest[z(b)]).norm());
   return reach;
+}
+
+// m2, of a face about as large as any of a block.
+double face_of(const Model& m, int b) {
+  const double thin = m.smallest_edge[z(b)], mass = m.mass[z(b)];
+  return m.kind[z(b)] == Kind::moving ? mass / (m.materials[z(m.material[z(b)])].density * thin) : 1e300;
 }
 
 }  // namespace
@@ -79,12 +89,13 @@ double jolt_rate(const Model& m, const State& s, double budget, double share) {
   };
   for (const ContactPair& p : s.contacts.list.pair)
     if (p.touching) count(p.a, p.b, p.law.kn * p.area);
+    else if (s.time.step < first_steps) count(p.a, p.b, p.law.kn * std::min(face_of(m, p.a), face_of(m, p.b)));
   for (int j = 0; j < m.njoint && m.njoint <= few_joints; ++j) {
     const Joint& joint = m.joint[z(j)];
     const bool bond = s.joints.stage[z(j)] == JointStage::intact && m.laws[z(joint.type->law)].has_bond();
     if (s.joints.stage[z(j)] != JointStage::contact && !bond) count(joint.a, joint.b, joint.type->stiffness[2]);
   }
-  return rate;
+  return std::min(rate, most_shortened / std::max(s.time.dt_target, s.time.dt));
 }
 
 }  // namespace erbs

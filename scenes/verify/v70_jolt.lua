@@ -12,7 +12,7 @@ local side, start = param("side", 0.3, "[m]"), param("start", 0.1, "of the jolt 
 local way = param("way", 0, "0: the plate starts, 1: a pulse of the ground, 2: a pulse of force, 3: the plate tilts at once")
 local pulse_time = param("pulse", 0.02, "of the pulse, over the contact's own period")
 local turn = param("turn", 0, "[degrees] of the scene about the vertical")
-family({ restitution = { 0, 0.1, 0.8 }, kn = { 1e9, 1e12 }, speed = { 0.1, 3 }, side = { 0.05, 1 }, start = { 0.1001, 0.10013 },
+family({ restitution = { 0, 0.1, 0.8 }, kn = { 1e9, 1e12 }, speed = { 0.1, 3 }, side = { 0.05, 1 }, start = { 0, 1e-4, 0.1001, 0.10013 },
   way = { 1, 2, 3 }, pulse = { 0.001, 0.1 }, turn = { 30 } }, { combinations = 24 })
 
 gravity(g)
@@ -24,7 +24,10 @@ transform { rotation = { 0, 0, turn * deg }, function()
   box { name = "plate", size = { 3 * side, 3 * side, side }, at = { -1.5 * side, -1.5 * side, -side }, fixed = not driven }
   box { name = "block", size = { side, side, side }, at = { -side / 2, -side / 2, 0 }, free = true }
 end }
-local function ramp(value) return table_wave { times = { 0, start, start + 1 }, values = { 0, 0, value }, hold = true } end
+local function ramp(value)
+  if start == 0 then return table_wave { times = { 0, 1 }, values = { 0, value }, hold = true } end
+  return table_wave { times = { 0, start, start + 1 }, values = { 0, 0, value }, hold = true }
+end
 if way == 0 then motion { block = "plate", direction = "z", wave = ramp(speed) }
 elseif way == 3 then turning { block = "plate", axis = "x", wave = ramp(speed / arm), about = { 0, -arm, 0 } }
 elseif way == 1 then ground_motion { direction = "z", wave = pulse { amplitude = speed / short, start = start, duration = short } }

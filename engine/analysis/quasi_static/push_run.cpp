@@ -89,6 +89,7 @@ void PushRun::begin() {
     const std::vector<std::size_t> sizes = sizes_of(run_.state);
     read_checkpoint(options_.directory, key_, run_.state, written, collapse_, so_far_);
     check_sizes(options_.directory, sizes, run_.state);
+    collapse_.supports.ride = rides_of(run_.model);
   } else {
     start_at_rest(scene_, run_, options_.threads, told_at_start(options_, born_));
     add_noise(run_, options_.noise, options_.noise_seed);

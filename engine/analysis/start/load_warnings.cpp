@@ -69,7 +69,7 @@ std::string astray(const Load& load, const Scene& scene, const Model& model) {
   if (load.kind != Load::Kind::force || !load.has_point) return "";
   const auto b = std::size_t(std::ranges::find(model.block_name, load.block) - model.block_name.begin());
   const Eigen::AlignedBox3d box = box_at_rest(model, b);
-  const double beyond = box.exteriorDistance(Vec3(model.rest[b] + load.point));
+  const double beyond = box.exteriorDistance(load.point);
   if (!(beyond > 1e-3 * box.sizes().maxCoeff())) return "";
   return fmt::format("{}: its point is {:.3g} m outside of the block, which it moves with as if by an arm; is it meant so?", name_of(load),
                      beyond);
@@ -88,6 +88,9 @@ std::string blow(const Load& load, double duration, bool bears) {
   if (std::fabs(jump) > 1e-6)  // m or rad
     return fmt::format("{}: it jumps to {:.4g} {} at {:g} s, within one step; {}", name_of(load), jump, rotates ? "rad" : "m", begin,
                        remedy);
+  if (const double end = end_time(load.wave); end > begin && end < duration && std::fabs(x(end + brief) - x(end - brief)) > 1e-6)
+    return fmt::format("{}: it leaps from {:.4g} {} to 0 at its end, {:g} s; hold = true keeps the last value", name_of(load),
+                       x(end - brief), rotates ? "rad" : "m", end);
   if (bears && std::fabs(speed - before) > sudden_speed)
     return fmt::format("{}: it starts at once with {:.3g} {} at {:g} s, a blow to what the block bears; {}", name_of(load), speed - before,
                        rotates ? "rad/s" : "m/s", begin, remedy);

@@ -2,60 +2,18 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "engine/base/error.h"
-#include "engine/model/box_at_rest.h"
 
 namespace erbs {
 namespace {
 
 bool counts(const Collapse& collapse, const Model& model, std::size_t b) { return model.kind[b] == Kind::moving && !collapse.thrown[b]; }
 
-// m, by which the supports of a block have been lowered, the lowest of them. One that rotates lowers what it bears by no single way.
-double lowered(const Collapse& collapse, const BlockPoses& pose, std::size_t b) {
-  double way = 0;
-  if (collapse.bearers.empty()) return way;
-  for (const int s : collapse.bearers[b])
-    if (pose.q[std::size_t(s)].vec().isZero(0)) way = std::max(way, -pose.u[std::size_t(s)].z());
-  return way;
-}
-
 bool down(const Collapse& collapse, const Model& model, const BlockPoses& pose, std::size_t b) {
-  return counts(collapse, model, b) && collapse.start[b] - pose.u[b].z() - lowered(collapse, pose, b) > 0.5 * model.thickness[b];
-}
-
-// Driven blocks that bear each block: those that joints lead to, and of a block without joints the highest support below it, if that one is
-// driven.
-std::vector<std::vector<int>> bearers_of(const Model& model) {
-  if (model.prescribed_motions.empty()) return {};
-  std::vector<std::vector<int>> next(model.kind.size()), out(model.kind.size());
-  for (const Joint& joint : model.joint) next[std::size_t(joint.a)].push_back(joint.b), next[std::size_t(joint.b)].push_back(joint.a);
-  std::vector<Eigen::AlignedBox3d> box;
-  for (std::size_t b = 0; b < out.size(); ++b) box.push_back(box_at_rest(model, b));
-  for (std::size_t s = 0; s < out.size(); ++s) {
-    if (model.kind[s] != Kind::driven) continue;
-    std::vector<std::uint8_t> seen(out.size());
-    for (std::vector<int> open{int(s)}; !open.empty();) {
-      const int at = open.back();
-      open.pop_back();
-      for (const int b : next[std::size_t(at)])
-        if (model.kind[std::size_t(b)] == Kind::moving && !std::exchange(seen[std::size_t(b)], 1))
-          out[std::size_t(b)].push_back(int(s)), open.push_back(b);
-    }
-  }
-  for (std::size_t b = 0; b < out.size(); ++b) {
-    if (model.kind[b] != Kind::moving || !next[b].empty()) continue;
-    int below = -1;
-    for (std::size_t s = 0; s < out.size(); ++s) {
-      if (model.kind[s] == Kind::moving || box[s].max().z() > box[b].center().z()) continue;
-      const bool under = (box[s].min().head<2>().array() < box[b].max().head<2>().array()).all() &&
-                         (box[s].max().head<2>().array() > box[b].min().head<2>().array()).all();
-      if (under && (below < 0 || box[s].max().z() > box[std::size_t(below)].max().z())) below = int(s);
-    }
-    if (below >= 0 && model.kind[std::size_t(below)] == Kind::driven) out[b].push_back(below);
-  }
-  return out;
+  if (!counts(collapse, model, b)) return false;
+  const double way = collapse.start[b] - pose.u[b].z(), most = 0.5 * model.thickness[b];
+  return way > most && way - collapse.supports.lowered(model, pose, b) > most;
 }
 
 }  // namespace
@@ -64,7 +22,8 @@ Collapse watch_collapse(const Model& model, const BlockPoses& start) {
   Collapse collapse;
   collapse.start.resize(std::size_t(model.nblock));
   for (std::size_t b = 0; b < collapse.start.size(); ++b) collapse.start[b] = start.u[b].z();
-  collapse.bearers = bearers_of(model);
+  collapse.supports.ride = rides_of(model);
+  collapse.supports.left.assign(collapse.supports.ride.size(), 0);
   collapse.thrown.assign(collapse.start.size(), 0);
   collapse.fallen.assign(collapse.start.size(), 0);
   collapse.fall_time.assign(collapse.start.size(), 0.0);
@@ -87,6 +46,7 @@ std::vector<std::uint8_t> thrown_blocks(const Scene& scene, const Model& model, 
 bool update(Collapse& collapse, const Model& model, const BlockPoses& pose, double t, std::vector<int>* newly) {
   double fallen = 0, moving = 0;  // kg
   const double far = model.analysis.stop_when_moved;
+  collapse.supports.follow(model, pose, collapse.start);
   for (std::size_t b = 0; b < collapse.start.size(); ++b) {
     if (!counts(collapse, model, b)) continue;
     if (far > 0 && pose.u[b].squaredNorm() > far * far) collapse.moved = true;

@@ -11,29 +11,31 @@
 
 #include "engine/model/model.h"
 #include "engine/model/state.h"
+#include "engine/record/results/lowered_supports.h"
 #include "engine/record/results/mechanism.h"
 #include "engine/scene/scene.h"
 
 namespace erbs {
 
 struct Collapse {
-  std::vector<double> start;              // m, height of each centroid above rest, at the start [nblock]
-  std::vector<std::vector<int>> bearers;  // driven blocks that bear the block at rest [nblock]; empty if none is driven
-  std::vector<std::uint8_t> thrown;       // the block flies by itself from the start (thrown_blocks) [nblock]
-  std::vector<std::uint8_t> fallen;       // the block has fallen at some time [nblock], ...
-  std::vector<double> fall_time;          // s, ... for the first time at this one [nblock]
-  double fallen_fraction = 0;             // fallen share of the moving mass, now
-  bool collapsed = false;                 // the share has once reached Analysis::collapse_fraction
-  double time = 0;                        // s, at which the share reached it
-  bool under_gravity = false;             // the structure cannot stand under its own weight: a collapse without a cause in time
-  bool moved = false;                     // a block has moved by Analysis::stop_when_moved from rest
-  Mechanism mechanism;                    // at the collapse
+  std::vector<double> start;  // m, height of each centroid above rest, at the start [nblock]
+  LoweredSupports supports;
+  std::vector<std::uint8_t> thrown;  // the block flies by itself from the start (thrown_blocks) [nblock]
+  std::vector<std::uint8_t> fallen;  // the block has fallen at some time [nblock], ...
+  std::vector<double> fall_time;     // s, ... for the first time at this one [nblock]
+  double fallen_fraction = 0;        // fallen share of the moving mass, now
+  bool collapsed = false;            // the share has once reached Analysis::collapse_fraction
+  double time = 0;                   // s, at which the share reached it
+  bool under_gravity = false;        // the structure cannot stand under its own weight: a collapse without a cause in time
+  bool moved = false;                // a block has moved by Analysis::stop_when_moved from rest
+  Mechanism mechanism;               // at the collapse
 };
 
 template <class C, class F>
 requires std::is_same_v<std::remove_const_t<C>, Collapse>
 void each(C& c, F&& f) {
   f("collapse_start", c.start);
+  f("collapse_supports_left", c.supports.left);
   f("collapse_thrown", c.thrown);
   f("collapse_fallen", c.fallen);
   f("collapse_fall_time", c.fall_time);

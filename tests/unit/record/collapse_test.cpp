@@ -106,6 +106,12 @@ TEST_CASE("what rides on a support that is lowered has not fallen, with a joint 
   std::vector<int> newly;
   CHECK(update(c, run.model, pose, 2.0, &newly));
   CHECK(newly == std::vector<int>{int(block("b02")), int(block("b12"))});
+  // A support that is drawn away below its blocks bears them no more: their fall counts from where they stood.
+  pose.u[block("plate0")].z() = pose.u[block("plate1")].z() = -1;
+  newly.clear();
+  update(c, run.model, pose, 2.5, &newly);
+  CHECK(newly.size() == 4);
+  CHECK(c.fallen_fraction == Approx(6. / 7));
   pose.u[block("aside")].z() = -.06;
   newly.clear();
   update(c, run.model, pose, 3.0, &newly);

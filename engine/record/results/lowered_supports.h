@@ -1,0 +1,27 @@
+// Driven supports that are lowered with what they bear. What rides on one has not fallen, as far as the support has been lowered below it;
+// one that is drawn away faster than the block follows bears it no more.
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "engine/model/model.h"
+#include "engine/model/state.h"
+
+namespace erbs {
+
+struct LoweredSupports {
+  struct Ride {
+    int block, bearer;
+  };
+  std::vector<Ride> ride;          // by block, of all that joints or contact lead to from a driven block at rest; not in a checkpoint
+  std::vector<std::uint8_t> left;  // the support was once lower than the block by half its thickness [ride]
+
+  // Looks for supports that have left their blocks. `start`: m, height of each block above rest at the start [nblock].
+  void follow(const Model& model, const BlockPoses& pose, const std::vector<double>& start);
+  // m, of the support that has been lowered by most below a block.
+  double lowered(const Model& model, const BlockPoses& pose, std::size_t b) const;
+};
+
+std::vector<LoweredSupports::Ride> rides_of(const Model& model);
+
+}  // namespace erbs
