@@ -1,6 +1,7 @@
 #include "engine/base/system/streams.h"
 
 #include <fcntl.h>
+#include <poll.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -12,6 +13,15 @@
 #include "engine/base/text.h"
 
 namespace erbs {
+namespace {
+
+// A long text has met the end of its pipe long before the last flush, which then finds nothing wrong: the pipe itself tells.
+bool reader_is_gone() {
+  pollfd out{.fd = STDOUT_FILENO, .events = POLLOUT, .revents = 0};
+  return ::poll(&out, 1, 0) == 1 && (out.revents & POLLERR) != 0;
+}
+
+}  // namespace
 
 void prepare_streams() {
   for (int fd = 0; fd <= 2; ++fd) {
@@ -28,7 +38,7 @@ int finish_streams(int code, int failed) {
   errno = 0;
   const bool lost = std::fflush(stdout) != 0 || std::ferror(stdout) != 0;
   const int why = errno;
-  if (!lost || why == EPIPE) return code;  // the reader has stopped reading: no loss
+  if (!lost || why == EPIPE || reader_is_gone()) return code;  // who stops reading loses nothing
   tell(stderr, fmt::format("what was to be printed is lost: {}; give standard output a place",
                            why != 0 ? std::strerror(why) : "standard output cannot be written"));
   return code == 0 ? failed : code;

@@ -262,3 +262,13 @@ TEST_CASE("what cannot be printed is told, with code 2", "[endings]") {
     }
   CHECK(in_shell(bench, "", "help", "| head -1 > /dev/null").first == 0);
 }
+
+TEST_CASE("a reader that stops in the middle of a long text changes no exit code", "[endings]") {
+  Bench bench;
+  // The text is longer than a pipe holds, so that it meets the closed end before the last flush.
+  const std::string log = (bench.folder / "log").string();
+  const int code = wait_for(start(
+      {"/bin/bash", "-c", "set -o pipefail; " + test::in_build("/erbs") + " help --editor 2> " + log + " | head -c 100 > /dev/null"}));
+  CHECK(code == 0);
+  CHECK(text_of(log).empty());
+}
