@@ -53,6 +53,7 @@ struct Show {
   std::string cut;                // "cut at x = 1.2 m" of a section; else empty
   double grid = 1;                // m, spacing of the lines on the ground
   std::vector<float> joint_area;  // m2 [joints]
+  std::vector<float> opened_from;  // m, opening from which a joint without bond counts as one that opened; infinite with a bond [joints]
   double scale = 1;               // m, m/s, J or Pa, the value that has the last colour of the map
   std::vector<Vec3> block_color;  // linear, by material with a slight variation between bricks [blocks]
   std::vector<bool> ghost;        // drawn translucent, without shadow [blocks]
@@ -63,6 +64,10 @@ Show prepare_show(const MotionScene& scene, const Run& run, const std::vector<Mo
 // `sharp`: blocks alone, without chamfers, mortar and cracks, for pictures too small to show them.
 Show prepare_show(const MotionScene& scene, const Run& run, Stage stage, std::vector<bool> ghost, const std::optional<Section>& section,
                   bool sharp = false);
+
+// Damage of a joint as pictures and drawings show it, 0..1. One without a bond has none to lose; it is drawn as broken while it is open,
+// since the states of a push release no joint to contact.
+double damage_drawn(const Show& show, const MotionFrame& frame, std::size_t joint);
 
 // Nearest to `size` among 1, 2 or 5 times a power of ten.
 double round_length(double size);

@@ -23,7 +23,23 @@ float parted(const MotionScene& scene, const MotionJoint& joint, const MotionFra
   return most;
 }
 
+// As joints of a push are told to be open, in events.csv and curve.csv.
+constexpr double opened = 1e-4;  // of the distance from the middle of a joint to its farthest corner
+
+float opened_from(const MotionJoint& joint) {
+  if (joint.polygon.empty()) return HUGE_VALF;
+  Vec3 middle = Vec3::Zero();
+  for (const Vec3& p : joint.polygon) middle += p / static_cast<double>(joint.polygon.size());
+  double farthest = 0;
+  for (const Vec3& p : joint.polygon) farthest = std::max(farthest, (p - middle).norm());
+  return static_cast<float>(opened * farthest);
+}
+
 }  // namespace
+
+double damage_drawn(const Show& show, const MotionFrame& frame, std::size_t joint) {
+  return frame.opening[joint] > show.opened_from[joint] ? 1 : frame.damage[joint] / 255.0;
+}
 
 double round_length(double size) {
   const double ten = std::pow(10.0, std::floor(std::log10(size)));
@@ -81,7 +97,10 @@ Show prepare_show(const MotionScene& scene, const Run& run, Stage stage, std::ve
   std::vector<bool> no_shade = show.stage.hidden;
   for (std::size_t b = 0; b < no_shade.size(); ++b) no_shade[b] = no_shade[b] || show.ghost[b];
   add_shades(show.mesh, solid, no_shade, 0.55 * gap + 0.1 * show.open_crack, 1.5 * gap + 0.002 * show.stage.size());
-  for (const MotionJoint& joint : scene.joints) show.joint_area.push_back(static_cast<float>(0.5 * area_normal(joint.polygon).norm()));
+  for (const MotionJoint& joint : scene.joints) {
+    show.joint_area.push_back(static_cast<float>(0.5 * area_normal(joint.polygon).norm()));
+    show.opened_from.push_back(run.dry ? opened_from(joint) : HUGE_VALF);
+  }
   for (std::size_t b = 0; b < scene.blocks.size(); ++b) {
     float square = 0;
     for (int part : scene.blocks[b].parts) {
@@ -122,9 +141,9 @@ FrameTexels texels_of(const Show& show, const MotionFrame& frame, Coloring color
   for (std::size_t j = 0; j < nj; ++j) {
     const MotionJoint& joint = scene.joints[j];
     const auto a = static_cast<std::size_t>(joint.a), b = static_cast<std::size_t>(joint.b);
-    const float damage = static_cast<float>(frame.damage[j]) / 255.0F;
+    const auto damage = static_cast<float>(damage_drawn(show, frame, j));
     for (std::size_t block : {a, b}) {
-      broken[block] += damage * show.joint_area[j];
+      broken[block] += static_cast<float>(frame.damage[j]) / 255.0F * show.joint_area[j];
       area[block] += show.joint_area[j];
     }
     t.joints[4 * j] = damage;

@@ -134,6 +134,10 @@ Run read_run(const std::string& dir) {
     if (!((c.eye - c.target).norm() > 1e-9 && c.fov > 0 && c.fov < pi))
       throw Error(fmt::format("camera {} looks nowhere; its eye and target must differ and 0 < fov < 180 deg", c.name), {manifest, 0});
   for (const Material& a : m.materials) run.materials.push_back({a.name, linear(a.color), a.density});
+  run.dry = !m.laws.empty() && std::ranges::all_of(m.laws, [](const Json& rule) {
+    const Json *none = find_key(rule, "none.value"), *kind = find_key(rule, "law.kind");
+    return (none != nullptr && *none == true) || (kind != nullptr && (*kind == "dry" || *kind == "dilatant"));
+  });
   if (const Json* tolerance = find_key(m.settings, "analysis.energy_gate.value"); tolerance && tolerance->is_number())
     run.energy_tolerance = tolerance->get<double>();
   if (const std::string metrics = run_file(dir, "metrics.json"); std::filesystem::exists(metrics)) {

@@ -54,6 +54,7 @@ struct Run {
   std::vector<double> multipliers;  // [states]
   std::string multiplier_unit;      // "g", "tan" of a tilt, or ""
   double state_dt = 0;              // s
+  bool dry = false;                 // no joint has a bond
   double energy_tolerance = 0;      // relative; 0: unknown
   std::string verdict;              // one sentence on a collapse; "" without one
   std::string status;               // status of an unreliable run; "" if completed or still running

@@ -294,7 +294,8 @@ class Lines {
       const auto a = static_cast<std::size_t>(joint.a), b = static_cast<std::size_t>(joint.b);
       const bool open = static_cast<double>(d_.frame.opening[j]) >= d_.show.open_crack;
       // From a twentieth of the damage on, as in pictures.
-      if (joint.polygon.size() < 3 || (d_.frame.damage[j] < 13 && !open) || d_.show.ghost[a] || d_.show.ghost[b]) continue;
+      if (joint.polygon.size() < 3 || (damage_drawn(d_.show, d_.frame, j) < 0.05 && !open) || d_.show.ghost[a] || d_.show.ghost[b])
+        continue;
       if (!(parted(joint) < 60 * d_.show.open_crack)) continue;
       const Vec3 n = joint_normal(d_.solid, joint), along = rotation_of(d_.frame, a) * n;
       const double turning = area_normal(joint.polygon).dot(n) < 0 ? -1 : 1;

@@ -5,6 +5,8 @@
 #include "engine/base/error.h"
 #include "engine/base/vec.h"
 #include "render/movie/movie.h"
+#include "render/run/framing.h"
+#include "render/vector/drawing.h"
 #include "tests/support/folder.h"
 #include "tests/unit/render/brick_house.h"
 
@@ -101,6 +103,28 @@ TEST_CASE("joints have the state of their damage and opening", "[render][quantit
   CHECK(state(6) == render::JointState::intact);
   CHECK(5 * t.crack_index.size() > 2 * show.mesh.crack_index.size());  // intact joints are lines as well, where they look towards the eye
   CHECK(texels_of(show, frame, Coloring::material, Vec3(5, -5, 3)).crack_index.size() < t.crack_index.size());
+}
+
+TEST_CASE("a joint without bond is drawn as one that opened while it is open, in pictures and drawings", "[render][quantity]") {
+  const MotionScene scene = brick_house({1.2, 1.2, 6, 1, 0.5});
+  Run run;
+  run.dry = GENERATE(true, false);
+  const Show show = prepare_show(scene, run, {});
+  MotionFrame frame = brick_house_frame(scene, 0);
+  std::fill(frame.damage.begin(), frame.damage.end(), 0);  // a push releases no joint to contact
+  std::fill(frame.opening.begin(), frame.opening.end(), 1e-6F);
+  frame.opening[3] = 1e-4F;
+  const FrameTexels t = texels_of(show, frame, Coloring::material, Vec3(5, -5, 3));
+  CHECK(t.joints[4 * 2] == 0);
+  CHECK(t.joints[4 * 3] == (run.dry ? 1 : 0));
+  CHECK(t.joints[4 * 3 + 2] == static_cast<float>(run.dry ? render::JointState::cracked : render::JointState::intact));
+  CHECK(t.crack_index.empty() == !run.dry);
+  std::fill(frame.opening.begin(), frame.opening.end(), 1e-4F);  // some face the camera
+  const Camera camera = choose_cameras(show.stage, 1).front();
+  std::size_t cracks = 0;
+  for (const LineGroup& group : lines_of({run, show, scene, Look{}, camera, false, frame, std::nullopt, {}}))
+    cracks += group.name == "cracked joints" ? group.pieces.size() : 0;
+  CHECK((cracks > 0) == run.dry);
 }
 
 TEST_CASE("the slip of a joint is its motion along its face, while the faces are near", "[render][quantity]") {
