@@ -18,7 +18,7 @@ constexpr std::array<const char*, 5> dashes{"1", "(14,5)", "(4,4)", "(14,4,3,4)"
 constexpr std::size_t most_curves = colors.size() * dashes.size();
 
 // Places of a panel, in px.
-constexpr double left = 95, width = 720, foot = 68, spacing = 26, letter = 8;
+constexpr double narrow = 95, width = 720, foot = 68, spacing = 26, letter = 8;
 
 struct Group {
   std::string unit;
@@ -81,6 +81,29 @@ std::string range_of(double low, double high, bool from_zero) {
   return fmt::format("[{:.8g}:{:.8g}]", low - half, high + half);
 }
 
+// Letters of the longest number that gnuplot writes beside an axis over this range.
+std::size_t letters_of_tics(double low, double high) {
+  const double span = high > low ? high - low : std::max(1.0, std::abs(low)), step = std::pow(10, std::floor(std::log10(span / 4)));
+  std::size_t most = 0;
+  for (const double end : {std::floor(low / step) * step, std::ceil(high / step) * step})
+    most = std::max(most, fmt::format("{:.6g}", end).size());
+  return most;
+}
+
+// Room (px) left of the panels: for a label, and for the numbers of the axis with the longest ones.
+double room_at_left(const std::vector<Group>& groups) {
+  std::size_t most = 0;
+  for (const Group& group : groups) {
+    const Scale y = scale_of(
+        group.curves, group.unit, [](const HistoryCurve& c) -> const auto& { return c.y; });
+    double low = HUGE_VAL, high = -HUGE_VAL;
+    for (const HistoryCurve* curve : group.curves)
+      for (const double value : curve->y) low = std::min(low, value * y.factor), high = std::max(high, value * y.factor);
+    if (low <= high) most = std::max(most, letters_of_tics(low, high));
+  }
+  return std::max(narrow, 47 + letter * double(most));
+}
+
 // 1, 2, 5 in each decade: gnuplot alone would name the decades only.
 std::string log_tics(double low, double high) {
   std::string tics;
@@ -98,6 +121,7 @@ plot::Figure curve_figure(const std::vector<HistoryCurve>& curves, CurveKind kin
     throw Error(
         fmt::format("{} curves are more than a figure can tell apart, which is {}; choose fewer columns", curves.size(), most_curves));
   const std::vector<Group> groups = groups_of(curves, kind);
+  const double left = room_at_left(groups);
   std::vector<const HistoryCurve*> all;
   std::vector<std::string> runs, names;
   for (const HistoryCurve& curve : curves) {
