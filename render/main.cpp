@@ -256,7 +256,9 @@ int main(int argc, char** argv) {
   app.add_option("--tilt", a.tilt, "of a tilting test: the table turns, or the camera stays level with it")
       ->check(CLI::IsMember({"table", "camera"}))
       ->capture_default_str();
-  app.add_option("--background", a.background, "sky, white for print, or transparent: pictures or a WebP of blocks and their shadow alone")
+  app.add_option("--background", a.background,
+                 "sky, white for print, or transparent: pictures or a WebP of blocks "
+                 "and their shadow; --no-overlay leaves out title and legend as well")
       ->check(CLI::IsMember(backgrounds))
       ->capture_default_str();
   app.add_flag("--forces", a.movie.marks.forces,
