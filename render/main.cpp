@@ -152,8 +152,8 @@ int run(Arguments& a) {
   read_times(a, movie);
   movie.cameras = a.cameras;
   read_camera(a, movie);
-  if (!movie.expected.empty() && (movie.stills.size() != 1 || (movie.cameras.size() != 1 && !movie.eye)))
-    throw Error("--expect compares one picture; give one time with --stills and one camera with --camera");
+  constexpr const char* one_picture = "--expect compares one picture; give one time with --stills and one camera with --camera";
+  if (!movie.expected.empty() && (movie.stills.size() != 1 || (movie.cameras.empty() && !movie.eye))) throw Error(one_picture);
   if (movie.svg && (!movie.expected.empty() || movie.webp || a.color != "material" || !a.comparison.film.empty()))
     throw Error("--svg makes line drawings alone; leave out --color, --webp, --expect and --compare");
   if (movie.dust && (movie.look.magnify != 1 || movie.svg || !a.comparison.film.empty()))
@@ -179,6 +179,7 @@ int run(Arguments& a) {
   if (movie.svg) return render::make_drawings(folder, reader, movie, erbs::catch_interrupts(), figures) ? 0 : 130;
   render::prepare_contexts();
   if (!render::make_movie(folder, reader, movie, erbs::catch_interrupts(), figures)) return 130;
+  if (!movie.expected.empty() && render::cameras_of(folder, movie) != 1) throw Error(one_picture);
   if (!movie.quiet && !folder.verdict.empty()) erbs::tell(stdout, folder.verdict);
   return 0;
 }
@@ -222,8 +223,8 @@ int main(int argc, char** argv) {
   app.add_option("DIR", a.dir, "the run folder")->required();
   app.add_option("--size", a.size, "pixels of a picture")->capture_default_str();
   app.add_option("--camera", a.cameras,
-                 "a camera of the scene by name, or all; from_-x, from_+x, from_-y, from_+y, from_above (default: the first)")
-      ->delimiter(',');
+                 "cameras of the scene by name, with commas between them, or all; from_-x, from_+x, from_-y, from_+y, from_above (default: "
+                 "the first)");
   app.add_option("--eye", a.eye, "x,y,z: position of a camera of your own (m)");
   app.add_option("--target", a.target, "x,y,z: the point that it looks at (m; default: the middle of the building)");
   const CLI::Option* fov =

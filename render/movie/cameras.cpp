@@ -1,4 +1,6 @@
 // The cameras that a movie asks for.
+#include <algorithm>
+
 #include "engine/base/error.h"
 #include "engine/base/text.h"
 #include "render/movie/movie.h"
@@ -19,6 +21,23 @@ Camera own_camera(const Movie& movie, const Stage& stage) {
   return camera;
 }
 
+// A list of names with commas between them. A name may hold commas itself: the longest that is known comes first.
+std::vector<std::string> names_in(const std::string& list, const std::vector<Camera>& known) {
+  std::vector<std::string> names;
+  for (std::size_t at = 0; at <= list.size();) {
+    std::size_t end = std::min(list.find(',', at), list.size());
+    for (const Camera& camera : known) {
+      const std::size_t here = at + camera.name.size();
+      const bool whole =
+          here <= list.size() && list.compare(at, camera.name.size(), camera.name) == 0 && (here == list.size() || list[here] == ',');
+      if (whole) end = std::max(end, here);
+    }
+    names.push_back(list.substr(at, end - at));
+    at = end + 1;
+  }
+  return names;
+}
+
 }  // namespace
 
 std::vector<Camera> chosen_cameras(const Run& run, const Stage& stage, const Movie& movie, double aspect) {
@@ -35,13 +54,16 @@ std::vector<Camera> chosen_cameras(const Run& run, const Stage& stage, const Mov
   const std::size_t own = all.size();
   for (const Camera& one : elevations(stage, aspect)) all.push_back(one);
   std::vector<Camera> chosen;
-  for (const std::string& name : movie.cameras) {
+  std::vector<std::string> names;
+  for (const std::string& list : movie.cameras)
+    for (const std::string& name : names_in(list, all)) names.push_back(name);
+  for (const std::string& name : names) {
     const std::size_t before = chosen.size();
     for (std::size_t i = 0; i < all.size(); ++i)
       if ((name == "all" && i < own) || all[i].name == name) chosen.push_back(all[i]);
     if (chosen.size() > before) continue;
     std::string known;
-    for (const Camera& c : all) known += " " + c.name;
+    for (const Camera& c : all) known += (known.empty() ? " " : ", ") + c.name;
     throw Error("--camera " + shown(name, 60) + " is none of this run's:" + known + " (or all)");
   }
   return chosen;

@@ -105,3 +105,22 @@ TEST_CASE("what cannot be drawn is refused before anything is written", "[progra
   CHECK(contains(bench.said, "--force"));
   CHECK_FALSE(fs::exists(dir / "frames/from_-y_t0.000s.png"));
 }
+
+TEST_CASE("a camera whose name holds a comma is chosen by it, alone and in a list", "[program][render]") {
+  Bench bench;
+  REQUIRE(bench.run(four_bricks() + "joint{ law = dry{ kn = 1*GPa, mu = .6 } } analysis{ duration = .02 }\n"
+                                    "camera{ name = 'north, low', eye = { 3, 3, .2 }, target = { 0, 0, .2 } }\n"
+                                    "camera{ name = 'north', eye = { 0, 3, 1 }, target = { 0, 0, .2 } }") == 0);
+  const auto render = [&](const std::string& cameras) {
+    return bench.erbs({"render", bench.out(), "--stills", "0", "--force", "--no-figures", "--size", "160x120", "--camera", cameras});
+  };
+  const fs::path frames = fs::path(bench.out()) / "frames";
+  CHECK(render("north, low") == 0);
+  CHECK(fs::exists(frames / "north__low_t0.000s.png"));
+  CHECK_FALSE(fs::exists(frames / "north_t0.000s.png"));
+  CHECK(render("from_+x,north, low,north") == 0);
+  CHECK(fs::exists(frames / "from_+x_t0.000s.png"));
+  CHECK(fs::exists(frames / "north_t0.000s.png"));
+  CHECK(render("north,low") == 2);
+  CHECK(contains(bench.said, "--camera low is none of this run's: north, low, north, from_-x"));
+}
