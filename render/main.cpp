@@ -146,10 +146,20 @@ int compare(const render::Run& folder, Arguments& a) {
   return render::compare_film(folder, reader, a.movie, a.comparison, erbs::catch_interrupts()) ? 0 : 130;
 }
 
+// Of two options one would otherwise be ignored.
+void refuse_contradictions(const Arguments& a) {
+  const bool stills = !a.movie.stills.empty();
+  if (stills && a.movie.range) throw Error("--stills and --time exclude each other: instants and a span; keep one");
+  if (stills && !a.movie.frames.empty()) throw Error("--stills and --frames exclude each other: instants and a film; keep one");
+  if (stills && a.movie.webp) throw Error("--stills makes single pictures, --webp a film; keep one");
+  if (a.figures_only && a.no_figures) throw Error("--figures and --no-figures exclude each other; keep one");
+}
+
 int run(Arguments& a) {
   render::Movie& movie = a.movie;
   read_size(a.size, movie.look);
   read_times(a, movie);
+  refuse_contradictions(a);
   movie.cameras = a.cameras;
   read_camera(a, movie);
   constexpr const char* one_picture = "--expect compares one picture; give one time with --stills and one camera with --camera";
@@ -169,6 +179,7 @@ int run(Arguments& a) {
     throw Error("--background transparent: an MP4 has no transparent pixels; add --webp, --no-video or --stills t1,t2");
   movie.look.table_turns = a.tilt == "table";
   const render::Run folder = render::read_run(a.dir);
+  if (!movie.expected.empty() && render::cameras_of(folder, movie) != 1) throw Error(one_picture);
   if (!a.comparison.film.empty()) return compare(folder, a);
   const auto figures = [&] {
     if (!a.no_figures) write_figures(folder, a);
@@ -179,7 +190,6 @@ int run(Arguments& a) {
   if (movie.svg) return render::make_drawings(folder, reader, movie, erbs::catch_interrupts(), figures) ? 0 : 130;
   render::prepare_contexts();
   if (!render::make_movie(folder, reader, movie, erbs::catch_interrupts(), figures)) return 130;
-  if (!movie.expected.empty() && render::cameras_of(folder, movie) != 1) throw Error(one_picture);
   if (!movie.quiet && !folder.verdict.empty()) erbs::tell(stdout, folder.verdict);
   return 0;
 }
