@@ -137,7 +137,7 @@ std::string for_xml(std::string_view text) {
 std::string file_stem(std::string_view name) {
   std::string stem = for_files(name);
   for (char& c : stem)
-    if (static_cast<unsigned char>(c) < 0x80 && !std::isalnum(static_cast<unsigned char>(c)) && c != '_' && c != '-') c = '_';
+    if (static_cast<unsigned char>(c) < 0x80 && !std::isalnum(static_cast<unsigned char>(c)) && c != '_' && c != '-' && c != '+') c = '_';
   return stem.empty() ? "run" : stem;
 }
 

@@ -32,7 +32,7 @@ std::string for_files(std::string_view text);
 // `text` between the quotes or the tags of XML.
 std::string for_xml(std::string_view text);
 
-// The name of a scene, camera or group as the name of a file: letters of any language, digits, - and _; other characters become _.
+// The name of a scene, camera or group as the name of a file: letters of any language, digits, -, + and _; other characters become _.
 std::string file_stem(std::string_view name);
 
 }  // namespace erbs

@@ -30,6 +30,7 @@ TEST_CASE("a file is named after a scene in any language", "[text]") {
   CHECK(file_stem("Häuschen 'Süd' 1.2") == "Häuschen__Süd__1_2");
   CHECK(file_stem("../a b;c") == "___a_b_c");
   CHECK(file_stem("\xff") == "\xEF\xBF\xBD");
+  CHECK(file_stem("from_+x") == "from_+x");  // not the name of from_-x less a sign
   CHECK(file_stem("") == "run");
 }
 
