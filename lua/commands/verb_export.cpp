@@ -26,11 +26,20 @@ int frame_at(const ExportedRun& run, double at) {
   return nearest;
 }
 
+// Each once, in the order of the command line.
+std::vector<std::string> formats_of(const ExportCommand& command) {
+  std::vector<std::string> formats;
+  for (const std::vector<std::string>* some : {&command.formats, &command.short_forms})
+    for (const std::string& format : *some)
+      if (std::ranges::find(formats, format) == formats.end()) formats.push_back(format);
+  return formats.empty() ? std::vector<std::string>{"gltf"} : formats;
+}
+
 // Formats that hold joints say nothing of forces that the run has not kept.
-void tell_missing_tractions(const ExportCommand& command, const ExportedRun& run) {
+void tell_missing_tractions(const ExportCommand& command, const std::vector<std::string>& formats, const ExportedRun& run) {
   const auto holds_joints = [](const std::string& format) { return format == "vtu" || format == "xdmf" || format == "hdf5"; };
   if (command.output.quiet || run.scene.joints.empty() || !run.frames.front().normal_stress.empty()) return;
-  if (std::any_of(command.formats.begin(), command.formats.end(), holds_joints))
+  if (std::ranges::any_of(formats, holds_joints))
     say("joints have damage and opening, no tractions: the run kept none; analysis{{ frame_stress = true }} keeps them\n");
 }
 
@@ -56,7 +65,8 @@ int verb_export(const ExportCommand& command) {
   if (command.words.size() != 1)
     throw Error(fmt::format("export takes one run folder, not {}; e.g. erbs export runs/first", command.words.size()));
   const std::string& dir = command.words.front();
-  if (!std::isnan(command.at) && std::ranges::find(command.formats, "obj") == command.formats.end())
+  const std::vector<std::string> formats = formats_of(command);
+  if (!std::isnan(command.at) && std::ranges::find(formats, "obj") == formats.end())
     throw Error(
         fmt::format("--at {} chooses the instant of an OBJ file, and none is asked for; add --format obj, or cut a span of time with "
                     "--time",
@@ -67,13 +77,13 @@ int verb_export(const ExportCommand& command) {
   const fs::path folder = command.output.directory.empty() ? fs::path(dir) / "export" : fs::path(command.output.directory);
   const std::string stem = file_stem(run.manifest.scene_name);
   const int instant = frame_at(run, command.at);
-  for (const std::string& format : command.formats)
+  for (const std::string& format : formats)
     if (const std::string path = target(folder, stem, format); !command.output.force && fs::exists(path))
       throw Error("it exists already; --force writes it anew", {path, 0});
   std::error_code failed;
   fs::create_directories(folder, failed);
   if (failed) throw Error("the folder cannot be made; may you write there? choose another with -o DIR", {folder.string(), 0});
-  for (const std::string& format : command.formats) {
+  for (const std::string& format : formats) {
     const std::string path = target(folder, stem, format);
     const std::vector<std::string> paths = format == "gltf"   ? write_gltf(run, path)
                                            : format == "vtu"  ? write_vtu(run, (folder / stem).string())
@@ -87,10 +97,10 @@ int verb_export(const ExportCommand& command) {
       say("{:<5} {} ({} block{}, {}, {:.3g} MB)\n", format, shown(path, 400), run.scene.blocks.size(),
           run.scene.blocks.size() == 1 ? "" : "s",
           format == "obj" ? fmt::format("at {:.4g} s", run.frames[static_cast<std::size_t>(instant)].t)
-                          : fmt::format("{} frames", run.frames.size()),
+                          : fmt::format("{} frame{}", run.frames.size(), run.frames.size() == 1 ? "" : "s"),
           1e-6 * static_cast<double>(bytes));
   }
-  tell_missing_tractions(command, run);
+  tell_missing_tractions(command, formats, run);
   return exit_ok;
 }
 

@@ -195,6 +195,9 @@ void add_others(CLI::App& app, CommandLine& line) {
   exported.add_option("--every", line.exported.every, "every N-th frame, and the last")->check(within(1, 1000000));
   exported.add_option("--at", line.exported.at, "the instant of an OBJ, s (default: the last frame)")->check(within(-1e9, 1e9));
   add_output(exported, line.exported.output, "DIR/export");
+  for (const auto& [flag, format] : {std::pair{"--glb", "gltf"}, {"--vtk", "vtu"}, {"--csv", "csv"}})
+    exported.add_flag_callback(
+        flag, [&line, format = format] { line.exported.short_forms.emplace_back(format); }, fmt::format("short for --format {}", format));
 
   CLI::App& record = *app.add_subcommand("record", "report a ground motion: points, dt, peaks, end values, Arias intensity, spectrum");
   record.add_option("FILE", line.record.words, "PEER AT2, ESM, COSMOS or CSMIP V2, CSV or text of columns")->required();

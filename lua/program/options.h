@@ -81,7 +81,7 @@ struct RecordCommand {
   Record record;  // --dt, --unit, --column
 };
 struct ExportCommand {
-  std::vector<std::string> words, formats{"gltf"};
+  std::vector<std::string> words, formats, short_forms;  // formats: of --format; short_forms: further ones; none: gltf
   OutputOptions output;
   std::string time;  // --time T0:T1
   int every = 1;

@@ -45,6 +45,18 @@ TEST_CASE("an exported run is read back by VTK and h5py", "[program][export]") {
   CHECK(code == 0);
 }
 
+TEST_CASE("short forms stand for formats, each written once", "[program][export]") {
+  Bench bench;
+  REQUIRE(bench.run(four_bricks() + dry_and_shaken + "analysis{ duration = .02 }") == 0);
+  REQUIRE(bench.erbs({"export", bench.out(), "--vtk", "--csv", "--format", "csv"}) == 0);
+  for (const auto& [ending, there] : {std::pair{".pvd", true}, {".csv", true}, {".glb", false}}) {
+    INFO(ending);
+    CHECK(fs::exists(bench.out() + "/export/scene" + ending) == there);
+  }
+  REQUIRE(bench.erbs({"export", bench.out(), "--glb", "-q"}) == 0);
+  CHECK(fs::exists(bench.out() + "/export/scene.glb"));
+}
+
 TEST_CASE("a span or an instant outside of the run is refused before anything is written, or told", "[program][export][bad_input]") {
   Bench bench;
   REQUIRE(bench.run(four_bricks() + dry_and_shaken + "analysis{ duration = .3 }") == 0);
