@@ -226,10 +226,10 @@ bool film(const Run& run, const Show& show, const Scenery& scenery, const Movie&
   if (video && made == all) video->finish();  // a video is complete or absent
   const double wall = since(start);
   if (!movie.quiet)
-    fmt::print("{}{} {} ({} frames {}x{} in {:.1f} s, {:.3f} s each, {} at a time)\n", made == all ? "" : "interrupted; ",
+    fmt::print("{}{} {} ({} frame{} {}x{} in {:.1f} s, {:.3f} s each, {} at a time)\n", made == all ? "" : "interrupted; ",
                files.video.empty() || made < all ? "pictures:" : "video:",
-               files.video.empty() || made < all ? shown(files.frames.string(), 400) : shown(files.video, 400), made, movie.look.width,
-               movie.look.height, wall, made ? wall / static_cast<double>(made) : 0, workers.count());
+               files.video.empty() || made < all ? shown(files.frames.string(), 400) : shown(files.video, 400), made, made == 1 ? "" : "s",
+               movie.look.width, movie.look.height, wall, made ? wall / static_cast<double>(made) : 0, workers.count());
   return made == all;
 }
 
