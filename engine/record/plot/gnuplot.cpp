@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <system_error>
@@ -29,6 +30,15 @@ std::string contents(const std::string& path) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
+// How a shell numbers them: beyond 128 stands a signal.
+std::string end_of_process(int code) { return code > 128 ? fmt::format("by signal {}", code - 128) : fmt::format("with code {}", code); }
+
+// What it said; where it could not even say that, the likely cause.
+std::string words_of_failure(const std::string& said, int code) {
+  if (!said.empty()) return ": " + shown(said, 400);
+  return code == 128 + SIGXFSZ ? "; is a limit on the size of files (ulimit -f) reached?" : " and said nothing; is the disk full?";
+}
+
 }  // namespace
 
 void run_gnuplot(const std::string& script, const std::string& path) {
@@ -49,7 +59,8 @@ void run_gnuplot(const std::string& script, const std::string& path) {
   if (code == 0 && contents(errors.path).empty() && (fs::file_size(picture.path, trouble) == 0 || trouble))
     throw Error("gnuplot drew nothing and said nothing; is the disk full?", {path});
   if (code != 0 || fs::file_size(picture.path, trouble) == 0 || trouble)
-    throw Error(fmt::format("gnuplot ended with code {} and drew nothing: {}", code, shown(contents(errors.path), 400)), {path});
+    throw Error(fmt::format("gnuplot ended {} and drew nothing{}", end_of_process(code), words_of_failure(contents(errors.path), code)),
+                {path});
   fs::rename(picture.path, path, trouble);
   if (trouble) throw Error(fmt::format("the picture cannot be put here ({}); check the folder", trouble.message()), {path});
 }
