@@ -68,9 +68,9 @@ std::string diagnostics_line(const Metrics::Diagnostics& t) {
   if (t.energy_residual > 0)
     line +=
         fmt::format(" at {:.4g} s{}", t.energy_residual_time, t.energy_residual_where.empty() ? "" : " (" + t.energy_residual_where + ")");
-  line += fmt::format(
-      ", energy reset {:.1e}, penetration {:.2g} % of a block's edge, dt at most {:.2f} of its limit, {}, momentum residual {:.0e}",
-      t.reset_share, 100 * t.penetration, t.dt_margin, warned_text(t), t.momentum_residual);
+  line += fmt::format(", energy reset {:.1e}, penetration {:.2g} % of a block's edge, {}, {}, momentum residual {:.0e}", t.reset_share,
+                      100 * t.penetration, t.dt_margin > 0 ? fmt::format("dt at most {:.2f} of its limit", t.dt_margin) : "no limit to dt",
+                      warned_text(t), t.momentum_residual);
   if (t.twin) line += t.chaos_horizon ? fmt::format(", chaos horizon {:.3g} s", *t.chaos_horizon) : ", no chaos within the run";
   return line;
 }

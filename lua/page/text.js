@@ -55,7 +55,8 @@ function trustCard(metrics) {
   const lines = [
     `Largest energy residual ${short(t.energy_residual)} of all energy, at ${short(t.energy_residual_time_s ?? 0)} s`,
     `Penetration at most ${percent(t.max_penetration_relative)} of a block's smallest edge`,
-    `Time step at most ${short(t.dt_margin)} of its limit`, `Inner forces balance but for ${short(t.momentum_residual ?? 0)} of their sum`
+    t.dt_margin > 0 ? `Time step at most ${short(t.dt_margin)} of its limit` : 'Nothing limits the time step',
+    `Inner forces balance but for ${short(t.momentum_residual ?? 0)} of their sum`
   ];
   if (t.sinking_share > 0) lines.push(`Deepening penetration in ${percent(t.sinking_share)} of steps`);
   if (t.past_step_share > 0) lines.push(`Time step above its limit in ${percent(t.past_step_share)} of steps`);

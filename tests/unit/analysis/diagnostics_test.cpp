@@ -39,7 +39,7 @@ TEST_CASE("the line of trust names each warning with its share, and what was boo
   CHECK_THAT(line, Catch::Contains("energy reset 1.5e-04"));
   CHECK_THAT(line, Catch::Contains("steps with a warning: 2 % dt above its limit"));
   CHECK_THAT(line, !Catch::Contains("deepening"));
-  CHECK_THAT(diagnostics_line(Metrics::Diagnostics{}), Catch::Contains("no warning in any step"));
+  CHECK_THAT(diagnostics_line(Metrics::Diagnostics{}), Catch::Contains("no limit to dt, no warning in any step"));
 }
 
 TEST_CASE("a diverged run names the step that the user gave, and the one it had shrunk to", "[analysis][trust]") {
