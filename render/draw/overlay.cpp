@@ -57,7 +57,7 @@ std::string length_text(double m) {
   return m >= 1      ? fmt::format("{:.3g} m", m)
          : m >= 0.01 ? fmt::format("{:.3g} cm", 100 * m)
          : m >= 1e-4 ? fmt::format("{:.3g} mm", 1000 * m)
-                     : fmt::format("{:.3g} um", 1e6 * m);
+                     : fmt::format("{:.3g} \u00b5m", 1e6 * m);
 }
 
 double overlay_unit(int height) { return std::max(height / 720.0, std::min(0.75, height / 480.0)); }
