@@ -27,6 +27,15 @@ std::string stress_text(double share, double scale) {
   return fmt::format("{:.3g}{}", share * scale * (mega ? 1e-6 : kilo ? 1e-3 : 1), share < 1 ? "" : mega ? " MPa" : kilo ? " kPa" : " Pa");
 }
 
+// With the prefix that leaves one to three digits before the point.
+std::string with_prefix(double value, const char* unit) {
+  constexpr std::pair<double, const char*> prefixes[] = {{1e9, "G"},  {1e6, "M"},       {1e3, "k"}, {1, ""},
+                                                         {1e-3, "m"}, {1e-6, "\u00b5"}, {1e-9, "n"}};
+  for (const auto& [one, prefix] : prefixes)
+    if (value >= one * (1 - 1e-9) || one == 1e-9) return fmt::format("{:.3g} {}{}", value / one, prefix, unit);
+  return "";
+}
+
 const char* quantity_name(Coloring coloring) {
   switch (coloring) {
     case Coloring::displacement:
@@ -228,16 +237,13 @@ std::string Overlay::map_number(double share) const {
   switch (look_.coloring) {
     case Coloring::damage:
       return fmt::format("{:g}{}", 100 * share, share > 0 ? " %" : "");
-    case Coloring::energy: {
-      const double energy = show_.scale * std::pow(10.0, energy_decades * (share - 1));
-      if (energy >= 1) return energy >= 1000 ? fmt::format("{:g} kJ", energy / 1000) : fmt::format("{:g} J", energy);
-      return fmt::format("{:g} mJ", 1000 * energy);
-    }
+    case Coloring::energy:
+      return with_prefix(show_.scale * std::pow(10.0, energy_decades * (share - 1)), "J");
     case Coloring::normal_stress:
     case Coloring::shear_stress:
       return stress_text(share, show_.scale);
     case Coloring::speed:
-      return share == 0 ? "0" : fmt::format("{:g} m/s", value);
+      return share == 0 ? "0" : with_prefix(value, "m/s");
     default:
       return share == 0 ? "0" : length_text(value / (look_.coloring == Coloring::displacement ? look_.magnify : 1));
   }
