@@ -258,7 +258,9 @@ double Overlay::draw_map(Image& image) const {
              display(look_.coloring == Coloring::damage ? damage_color(c / width) : map_color(c / width)));
   regular_.draw(image, map_number(0), left, y + 33 * u, size, quiet_ink);
   regular_.draw(image, map_number(0.5), 0.5 * (left + right), y + 33 * u, size, quiet_ink, Font::Align::middle);
-  regular_.draw(image, map_number(1), right, y + 33 * u, size, quiet_ink, Font::Align::right);
+  // What moves more than 98 % of the blocks has the last colour too.
+  regular_.draw(image, (look_.coloring == Coloring::damage ? "" : "\u2265 ") + map_number(1), right, y + 33 * u, size, quiet_ink,
+                Font::Align::right);
   return y + 36 * u;
 }
 
