@@ -182,7 +182,11 @@ void Overlay::draw_record(Image& image, double t) const {
   const bool tilting = run_.record.axis.empty();
   const double one = tilting ? 1 : standard_g;
   const char* unit = tilting ? "\u00b0" : " g";
-  regular_.draw(image, (tilting ? "tilt, about " : "ground, along ") + r.axis, x, top + 25 * u, 12.5 * u, quiet_ink);
+  const auto fitted = [&](const std::string& text, double y) {
+    const double size = 12.5 * u, room = strip_left_ - x - 8 * u;
+    regular_.draw(image, text, x, y, size * std::min(1.0, room / std::max(1.0, regular_.width(text, size))), quiet_ink);
+  };
+  fitted((tilting ? "tilt, about " : r.axis.size() > 1 ? "along " : "ground, along ") + r.axis, top + 25 * u);
   const double now_shown = std::round(100 * value_at(r, t) / one) / 100 + 0.0;  // no -0.00
   bold_.draw(image, fmt::format("{:+.2f}{}", now_shown, unit), x, top + 49 * u, 17 * u, text_ink);
   regular_.draw(image, fmt::format("peak {:.3g}{}", r.peak / one, unit), x, top + 71 * u, 12.5 * u, quiet_ink);

@@ -11,11 +11,14 @@
 namespace erbs::render {
 namespace {
 
-// "x", "-y" reads "y", any other direction "(0.71, 0.71, 0)".
+// "x", "-y" reads "y", any other direction "22° from x" and, if it is not level, "22° from x, 35° up".
 std::string axis_name(const Vec3& d) {
   for (int i = 0; i < 3; ++i)
     if (std::fabs(d[i]) > 0.9995) return std::string(1, "xyz"[i]);
-  return fmt::format("({:.2f}, {:.2f}, {:.2f})", d.x(), d.y(), d.z());
+  const double level = std::hypot(d.x(), d.y()), sign = d.x() < 0 ? -1 : 1;
+  const std::string along = fmt::format("{:.0f}\u00b0 from x", std::atan2(sign * d.y(), sign * d.x()) * 180 / pi);
+  const double up = std::round(sign * std::atan2(d.z(), level) * 180 / pi);
+  return up == 0 ? along : fmt::format("{}, {:.0f}\u00b0 {}", along, std::fabs(up), up > 0 ? "up" : "down");
 }
 
 // The part of a vector along its principal direction, in which the sum of its squares is greatest.

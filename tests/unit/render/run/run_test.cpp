@@ -57,7 +57,7 @@ TEST_CASE("a run folder is read", "[render][run]") {
   CHECK(run.record.t.size() == 3);  // the incomplete last line is ignored
   dir.write("histories.csv", "time_s,ground_ax_m_s2,ground_ay_m_s2\n0,0,0\n0.1,1,1\n0.2,-2,-2\n");
   const Run diagonal = read_run(dir.path.string());
-  CHECK(diagonal.record.axis == "(0.71, 0.71, 0.00)");
+  CHECK(diagonal.record.axis == "45\u00b0 from x");
   CHECK(diagonal.record.peak == Approx(std::sqrt(8.0)));
   CHECK(diagonal.record.a.back() == Approx(-std::sqrt(8.0)));
   CHECK(run.energy_tolerance == 1e-3);
