@@ -186,10 +186,13 @@ void Overlay::draw_record(Image& image, double t) const {
     const double size = 12.5 * u, room = strip_left_ - x - 8 * u;
     regular_.draw(image, text, x, y, size * std::min(1.0, room / std::max(1.0, regular_.width(text, size))), quiet_ink);
   };
-  fitted((tilting ? "tilt, about " : r.axis.size() > 1 ? "along " : "ground, along ") + r.axis, top + 25 * u);
+  const double higher = tilting ? 0 : 5 * u;  // four rows of text in place of three
+  fitted((tilting ? "tilt, about " : r.axis.size() > 1 ? "along " : "ground, along ") + r.axis, top + 25 * u - higher);
   const double now_shown = std::round(100 * value_at(r, t) / one) / 100 + 0.0;  // no -0.00
-  bold_.draw(image, fmt::format("{:+.2f}{}", now_shown, unit), x, top + 49 * u, 17 * u, text_ink);
-  regular_.draw(image, fmt::format("peak {:.3g}{}", r.peak / one, unit), x, top + 71 * u, 12.5 * u, quiet_ink);
+  bold_.draw(image, fmt::format("{:+.2f}{}", now_shown, unit), x, top + 49 * u - higher, 17 * u, text_ink);
+  const std::string peak = fmt::format("{:.3g}{}", r.peak / one, unit);
+  fitted(tilting ? "peak " + peak : "recorded peak", top + 71 * u - 2 * higher);  // rows may miss that of the wave
+  if (!tilting) fitted(peak, top + 78 * u);
   const double upper = top + (run_.marks.empty() ? 6 : 18) * u, lower = bottom - 19 * u, thin = 0.65 * u, now = column(t);
   const auto row = [&](double value) { return upper + (lower - upper) * (range_.high - value) / (range_.high - range_.low); };
   fill_box(image, strip_left_, row(0) - 0.5, strip_right_, row(0) + 0.5, {150, 156, 163, 0.8});
