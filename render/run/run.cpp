@@ -167,6 +167,11 @@ Run read_run(const std::string& dir) {
     if (first.starts_with(stem)) {
       run.multipliers = curve.columns.front(), run.state_dt = m.frame_dt;
       run.multiplier_unit = first.size() > stem.size() ? first.substr(stem.size() + 1) : "";
+      // After the last state the table is tilted further, so that the structure falls: that is no state it stood in.
+      const double end = (static_cast<double>(curve.rows()) - 0.5) * run.state_dt;
+      run.tilt.peak = 0;
+      for (std::size_t i = 0; i < run.tilt.t.size() && run.tilt.t[i] <= end; ++i)
+        run.tilt.peak = std::max(run.tilt.peak, std::fabs(run.tilt.a[i]));
     }
   }
   if (const std::string events = run_file(dir, "events.csv"); std::filesystem::exists(events))
