@@ -289,7 +289,11 @@ double Overlay::draw_legend(Image& image) const {
   std::vector<Row> rows;
   for (std::size_t m = 0; m < used.size(); ++m)
     if (used[m] && !run_.materials[m].name.empty()) rows.push_back({run_.materials[m].name, display(run_.materials[m].color), 6});
-  if (rows.size() > 6 || by_state) rows.clear();
+  if (by_state) rows.clear();
+  if (const std::size_t more = rows.size(); more > 6) {
+    rows.resize(5);
+    rows.push_back({fmt::format("and {} more materials", more - 5), {0, 0, 0, 0}, 0});
+  }
   const std::string wide = "open by " + length_text(show_.open_crack / (by_state ? 1 : look_.magnify)) + " or more";
   if (by_state) {
     rows.push_back({"intact joint", display(state_color(JointState::intact)), 2});

@@ -6,6 +6,7 @@
 
 #include "engine/base/error.h"
 #include "engine/base/units.h"
+#include "engine/record/folder/colors.h"
 #include "engine/record/folder/run_folder.h"
 
 namespace erbs::render {
@@ -125,7 +126,8 @@ Run read_run(const std::string& dir) {
   const std::string manifest = run_file(dir, "manifest.json"), histories = run_file(dir, "histories.csv");
   if (!std::filesystem::exists(dir)) throw Error("no such folder; give the folder of a run, e.g. runs/first", {dir, 0});
   if (!std::filesystem::exists(manifest)) throw Error("no manifest.json in it; give the folder of a run, e.g. runs/first", {dir, 0});
-  const Manifest m = read_manifest(dir);
+  Manifest m = read_manifest(dir);
+  tell_apart(m.materials);
   Run run;
   run.dir = dir;
   run.name = m.scene_name;

@@ -64,7 +64,7 @@ const std::vector<std::pair<std::string, std::string>> doors{
 };
 
 const std::regex seen_by_render(
-    "engine/(base|geometry)/.*|engine/record/(folder/(identity|motion_file|motion_scene|run_folder)|format/json|plot/"
+    "engine/(base|geometry)/.*|engine/record/(folder/(colors|identity|motion_file|motion_scene|run_folder)|format/json|plot/"
     "(figure|gnuplot|unit))\\.h|"
     "engine/scene/scene\\.h|render/.*");
 

@@ -5,6 +5,7 @@
 #include <fstream>
 
 #include "engine/base/error.h"
+#include "engine/record/folder/colors.h"
 #include "engine/record/folder/run_folder.h"
 
 namespace erbs {
@@ -50,6 +51,7 @@ ExportedRun read_exported_run(const std::string& dir, double from, double to, in
     throw Error("no manifest.json in it; give the folder of a run, e.g. runs/first", {dir, 0});
   ExportedRun run;
   run.manifest = read_manifest(dir);
+  tell_apart(run.manifest.materials);
   const MotionReader reader(dir);
   run.scene = reader.scene();
   const std::vector<double>& times = reader.times();

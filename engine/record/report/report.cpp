@@ -167,6 +167,10 @@ std::string report_html(const ReportedRun& run, const ReportPage& page, const st
   data["events"] = run.events;
   data["events_left_out"] = run.events_left_out;
   data["manifest"] = run.manifest;
+  for (std::size_t m = 0; m < run.run.manifest.materials.size(); ++m) {
+    const Vec3& color = run.run.manifest.materials[m].color;
+    data["manifest"]["materials"][m]["color"] = {color.x(), color.y(), color.z()};
+  }
   data["metrics"] = run.metrics;
   if (const Json* fell = find_key(run.metrics, "collapse.time_s"); fell && fell->is_number())
     data["collapse_when"] = span_of_event(run.run.manifest, fell->get<double>());

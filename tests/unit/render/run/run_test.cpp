@@ -8,6 +8,7 @@
 #include <fstream>
 
 #include "engine/base/error.h"
+#include "engine/record/folder/colors.h"
 #include "render/draw/figures.h"
 #include "render/movie/movie.h"
 #include "tests/support/folder.h"
@@ -217,4 +218,19 @@ TEST_CASE("the clock of a push tells its states, and then the fall", "[render][r
   CHECK(clock_text(run, 0.04) == "state 1: 5.71\u00b0");
   run.multiplier_unit = "";
   CHECK(clock_text(run, -1) == "state 0: 0.000");
+}
+
+TEST_CASE("materials without a colour are told apart, where there are several", "[render][run]") {
+  std::vector<Material> materials(1);
+  tell_apart(materials);
+  CHECK(materials[0].color == Material{}.color);
+  const Vec3 own(0.1, 0.2, 0.3);
+  for (const char* name : {"Brick", "stone", "red tile", "granite"}) materials.emplace_back().name = name;
+  materials.resize(27);
+  materials.emplace_back().color = own;
+  tell_apart(materials);
+  CHECK(materials[1].color == Material{}.color);  // what is fired stays red
+  CHECK(materials.back().color == own);
+  for (std::size_t i = 0; i < materials.size(); ++i)
+    for (std::size_t k = 0; k < i; ++k) CHECK((materials[i].color - materials[k].color).norm() > 0.02);
 }
