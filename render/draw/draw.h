@@ -55,6 +55,7 @@ struct Show {
   std::vector<float> joint_area;  // m2 [joints]
   std::vector<float> opened_from;  // m, opening from which a joint without bond counts as one that opened; infinite with a bond [joints]
   double scale = 1;               // m, m/s, J or Pa, the value that has the last colour of the map
+  bool replaced = false;          // contact has taken the place of joints, which then tell no forces and stresses
   std::vector<Vec3> block_color;  // linear, by material with a slight variation between bricks [blocks]
   std::vector<bool> ghost;        // drawn translucent, without shadow [blocks]
   std::vector<float> radius;      // m, of a sphere about the centroid of each block, its mortar included; 0: not drawn [blocks]

@@ -68,8 +68,8 @@ void draw_mark_legend(Image& image, const std::vector<MarkRow>& rows, double top
     font.draw(image, row.name, right - sample - 8 * u, y + 4.5 * u, size, text_ink, Font::Align::right);
     const Line l{right - sample, y, right - (row.head ? 2 * u : 0), y};
     const double half = std::max(0.5, 0.5 * row.width * u);
-    if (!row.head) fill_box(image, l.x0, y - half, l.x1, y + half, display(row.color));
-    else {
+    if (row.width > 0 && !row.head) fill_box(image, l.x0, y - half, l.x1, y + half, display(row.color));
+    if (row.head) {
       draw_line(image, l.x0, l.y0, l.x1, l.y1, row.width * u, display(row.color));
       for (const Line& h : head_of(l, 9 * u)) draw_line(image, h.x0, h.y0, h.x1, h.y1, row.width * u, display(row.color));
     }

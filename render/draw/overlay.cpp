@@ -258,7 +258,10 @@ std::string Overlay::map_number(double share) const {
 
 double Overlay::draw_map(Image& image) const {
   const double u = unit_, right = image.width - margin * u, size = 13 * u, width = 170 * u, left = right - width, y = 78 * u;
-  fill_box(image, left - 10 * u, y - 18 * u, right + 10 * u, y + 36 * u, panel);
+  const char* const remark = is_stress(look_.coloring) && show_.replaced ? "0 where contact has replaced a joint" : "";
+  const double small = legible(11, u), wide = std::max(width, regular_.width(remark, small)), more = *remark != '\0' ? 17 * u : 0;
+  fill_box(image, right - wide - 10 * u, y - 18 * u, right + 10 * u, y + 36 * u + more, panel);
+  regular_.draw(image, remark, right, y + 34 * u + more, small, quiet_ink, Font::Align::right);
   regular_.draw(image, quantity_name(look_.coloring), left, y, size, text_ink);
   for (int c = 0; c < static_cast<int>(width); ++c)
     fill_box(image, left + c, y + 8 * u, left + c + 1, y + 19 * u,
@@ -268,7 +271,7 @@ double Overlay::draw_map(Image& image) const {
   // What moves more than 98 % of the blocks has the last colour too.
   regular_.draw(image, (look_.coloring == Coloring::damage ? "" : "\u2265 ") + map_number(1), right, y + 33 * u, size, quiet_ink,
                 Font::Align::right);
-  return y + 36 * u;
+  return y + 36 * u + more;
 }
 
 double Overlay::draw_legend(Image& image) const {

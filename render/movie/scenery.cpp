@@ -169,13 +169,17 @@ Show Scenery::show(const std::vector<double>& times) {
   if (is_quantity(movie_.look.coloring))
     for (std::size_t i = 0; i < times.size(); i += stride) some.push_back(drawn(times[i]));
   show.scale = color_scale(excerpt_.scene, some, movie_.look.coloring, stage_.reach);
+  // The broken joints of mortar are soon among them, and those of dry masonry at once.
+  const auto is_broken = [](std::uint8_t damage) { return damage == 255; };
+  for (std::size_t i = 0; i < times.size() && !show.replaced && (movie_.marks.any() || is_stress(movie_.look.coloring)); ++i)
+    if (i % stride == 0 || i + 1 == times.size()) show.replaced = std::ranges::any_of(actual(times[i]).damage, is_broken);
   if (!movie_.marks.any()) return show;
   double force = 0, speed = 0;
   for (std::size_t i = 0; i < times.size(); i += stride) {
     if (movie_.marks.forces || movie_.marks.thrust) force = std::max(force, largest_force(excerpt_.scene, actual(times[i])));
     if (!movie_.marks.mechanism.empty()) speed = std::max(speed, largest_speed(excerpt_.scene, rates(times[i])));
   }
-  mark_scale_ = {force > 0 ? round_up(force) : 1, speed > 0 ? speed : 1};
+  mark_scale_ = {force > 0 ? round_up(force) : 1, speed > 0 ? speed : 1, show.replaced};
   return show;
 }
 

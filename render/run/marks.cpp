@@ -296,6 +296,8 @@ Marks marks_of(const MarkChoice& choice, const MotionScene& scene, const Stage& 
     marks.legend.push_back({force_text(0.2 * scale.force), 0.2 * widest, force_color, false});
   }
   if (choice.thrust) marks.legend.push_back({"line of thrust, " + force_text(scale.force), widest_thrust, thrust_color, false});
+  if ((choice.forces || choice.thrust) && scale.replaced)
+    marks.legend.push_back({"none where contact has replaced a joint", 0, force_color, false});
   if (choice.mechanism == "motion")
     marks.legend.push_back({fmt::format("velocity, longest {:.3g} m/s; arcs: rotation", scale.speed), 2.4, motion_color, true});
   else if (!choice.mechanism.empty()) marks.legend.push_back({"mechanism; arcs: rotation", 2.4, motion_color, true});

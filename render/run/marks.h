@@ -16,7 +16,7 @@ struct Stroke {
 };
 struct MarkRow {
   std::string name;
-  double width = 1;
+  double width = 1;  // 0: a remark, without a sample
   Vec3 color{0, 0, 0};
   bool head = false;
 };
@@ -43,8 +43,9 @@ Rates rates_of_mechanism(const std::string& given, const MotionScene& scene);
 
 // Values that have the greatest width, and the length of the longest arrow; common to all frames of a film.
 struct MarkScale {
-  double force = 1;  // N
-  double speed = 1;  // m/s
+  double force = 1;       // N
+  double speed = 1;       // m/s
+  bool replaced = false;  // contact has taken the place of joints, whose forces are then not drawn
 };
 // Of the normal forces of all joints in a frame, the largest (N); of the speeds of the blocks that move, the largest (m/s).
 double largest_force(const MotionScene& scene, const MotionFrame& frame);
