@@ -148,6 +148,29 @@ void check_gnuplot() {
   if (!can_start("gnuplot")) throw Error("pictures need gnuplot, which is not installed; install the package gnuplot-nox");
 }
 
+// "first diverged": the runs whose curves end early or mean little.
+std::string troubled(const std::vector<std::string>& folders) {
+  std::string text;
+  for (const std::string& folder : folders) {
+    const std::string path = run_file(folder, "metrics.json");
+    const std::string status = fs::exists(path) ? read_json(path).value("status", "completed") : "completed";
+    if (status != "completed")
+      text += fmt::format("{}{} {}{}", text.empty() ? "" : ", ", fs::canonical(folder).filename().string(),
+                          status == "diverged" ? "" : "is ", status);
+  }
+  return text;
+}
+
+std::string joined(const std::string& a, const std::string& b) { return a.empty() || b.empty() ? a + b : a + "; " + b; }
+
+void warn_of(const std::vector<std::string>& folders) {
+  if (const std::string trouble = troubled(folders); !trouble.empty())
+    tell(stderr, fmt::format("warning: {}; log.txt of the run says why", trouble));
+  for (const std::string& folder : folders)
+    if (const std::string uneven = uneven_rows(folder); !uneven.empty())
+      tell(stderr, fmt::format("warning: {}: {}", shown(folder, 200), uneven));
+}
+
 std::string note_of(const PlotCommand& command, CurveKind kind) {
   std::string note = kind == CurveKind::spectrum   ? "Fourier amplitude spectrum, Hann window"
                      : kind == CurveKind::response ? fmt::format("response spectrum, {:g} % damping", 100 * command.damping.value_or(0.05))
@@ -186,9 +209,10 @@ void draw_drift(const PlotCommand& command, const std::string& path) {
       throw Error(mistake.what(), {folder});
     }
   const std::string span = command.time.empty() ? "until a collapse" : note_of(command, CurveKind::history);
-  plot::draw(drift_figure(profiles, fmt::format("{}, {} levels, {}", command.group.empty() ? "all blocks" : command.group,
-                                                profiles.front().height.size(), span)),
-             path);
+  warn_of(command.words);
+  const std::string note =
+      fmt::format("{}, {} levels, {}", command.group.empty() ? "all blocks" : command.group, profiles.front().height.size(), span);
+  plot::draw(drift_figure(profiles, joined(note, troubled(command.words))), path);
 }
 
 void draw_histogram(const PlotCommand& command, const std::string& path) {
@@ -203,6 +227,7 @@ void draw_histogram(const PlotCommand& command, const std::string& path) {
       if (!mistake.place.file.empty()) throw;
       throw Error(mistake.what(), {folder});
     }
+  warn_of(command.words);
   plot::draw(stress_figure(samples, command.histogram), path);
 }
 
@@ -242,7 +267,8 @@ int verb_plot(const PlotCommand& command) {
       throw Error(mistake.what(), {run.folder});
     }
   check_gnuplot();
-  plot::draw(curve_figure(curves, kind, note_of(command, kind)), path);
+  warn_of(command.words);
+  plot::draw(curve_figure(curves, kind, joined(note_of(command, kind), troubled(command.words))), path);
   if (!command.output.quiet) say("picture {} ({} curve{})\n", shown(path, 400), curves.size(), curves.size() == 1 ? "" : "s");
   return exit_ok;
 }

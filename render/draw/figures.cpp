@@ -7,6 +7,7 @@
 #include <map>
 
 #include "engine/base/error.h"
+#include "engine/base/text.h"
 #include "engine/base/units.h"
 #include "engine/record/plot/figure.h"
 #include "engine/record/plot/gnuplot.h"
@@ -164,6 +165,17 @@ plot::Figure energy_figure(const std::string& csv, const CsvTable& table, const 
   return figure;
 }
 
+// The two files have the same rows, but for the one in which a run may have been ended.
+void warn_of_ends(const std::string& csv, const CsvTable& table, double& other_end) {
+  if (table.rows() < 2) return;
+  const std::vector<double>& t = table.columns[0];
+  const double end = t.back(), step = (end - t.front()) / static_cast<double>(t.size() - 1);
+  if (std::abs(end - other_end) > 1.5 * step)
+    tell(stderr,
+         fmt::format("warning: {} ends at {:g} s, histories.csv at {:g} s: a file was cut off; run the scene again", csv, end, other_end));
+  other_end = end;
+}
+
 }  // namespace
 
 std::pair<double, double> shown_range(const CsvTable& table, const Panel& panel) {
@@ -251,10 +263,12 @@ std::vector<std::string> write_figures(const Run& run) {
     plot::draw(push_figure("curve.csv", curve, run), written.back());
     return written;
   }
+  double other_end = NAN;  // s, of the histories
   for (const std::string name : {"histories", "energy"}) {
     const std::string csv = name + ".csv", svg = (dir / (name + ".svg")).string();
     if (!fs::exists(dir / csv)) continue;
     const CsvTable table = read_csv((dir / csv).string());
+    warn_of_ends(csv, table, other_end);
     if (table.rows() < 2 || table.names.size() < 2 || table.columns[0].back() <= 0) continue;
     plot::draw(name == "energy" ? energy_figure(csv, table, run) : histories_figure(csv, table, run), svg);
     written.push_back(svg);

@@ -81,6 +81,20 @@ CsvTable read_columns(const std::string& folder) {
   return table;
 }
 
+std::string uneven_rows(const std::string& folder) {
+  const std::string histories = (fs::path(folder) / "histories.csv").string(), energy = (fs::path(folder) / "energy.csv").string();
+  if (!fs::exists(histories) || !fs::exists(energy)) return "";
+  const CsvTable a = read_csv(histories), b = read_csv(energy);
+  const int time_a = a.find("time_s"), time_b = b.find("time_s");
+  if (time_a < 0 || time_b < 0 || std::max(a.rows(), b.rows()) <= std::min(a.rows(), b.rows()) + 1) return "";
+  const auto end_of = [](const CsvTable& table, int time) { return table.rows() > 0 ? table.columns[std::size_t(time)].back() : 0.0; };
+  const bool energy_ends = b.rows() < a.rows();
+  return fmt::format(
+      "{} ends at {:g} s, {} at {:g} s: the file was cut off, and only what both have is drawn together; run the scene again",
+      energy_ends ? "energy.csv" : "histories.csv", energy_ends ? end_of(b, time_b) : end_of(a, time_a),
+      energy_ends ? "histories.csv" : "energy.csv", energy_ends ? end_of(a, time_a) : end_of(b, time_b));
+}
+
 std::optional<CsvTable> read_capacity(const std::string& folder) {
   const std::string path = (fs::path(folder) / "curve.csv").string();
   return fs::exists(path) ? std::optional(read_csv(path)) : std::nullopt;

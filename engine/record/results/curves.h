@@ -22,6 +22,8 @@ TimeSpan time_span_of(const std::string& text);
 
 // The columns of histories.csv, then those of energy.csv, in their common rows. Throws Error if there is no folder or no row.
 CsvTable read_columns(const std::string& folder);
+// That one of the two files ends early, where they differ by more than the row in which a run may have been ended; "" otherwise.
+std::string uneven_rows(const std::string& folder);
 // curve.csv of a push or a tilting test, a row for each state of equilibrium; nothing without that file.
 std::optional<CsvTable> read_capacity(const std::string& folder);
 

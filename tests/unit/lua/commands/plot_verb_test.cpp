@@ -189,3 +189,21 @@ TEST_CASE("a column that a push lacks is met with those of its curve", "[plot][p
   CHECK(bench.erbs({"plot", push, "--x", "displacement_m", "--y", "top_ux_m"}) == 2);
   CHECK(contains(bench.said, "over time: time_s, top_ux_m"));
 }
+
+TEST_CASE("a plot says that a run diverged, that a file was cut off, and labels an axis of long numbers", "[plot][program]") {
+  Bench bench;
+  const std::string run = run_folder(bench, "first", 1e14), picture = run + "/plot.svg";
+  bench.write("first/metrics.json", R"({"status": "diverged"})");
+  bench.write("first/energy.csv", "time_s,kinetic_J\n0,0\n0.1,-1e15\n0.2,-1.8047e15\n");
+  REQUIRE(bench.erbs({"plot", run, "--y", "kinetic_J"}) == 0);
+  CHECK(contains(bench.said, "warning: first diverged"));
+  CHECK(contains(bench.said, "energy.csv ends at 0.2 s, histories.csv at 1 s"));
+  const std::string svg = text_of(picture);
+  CHECK(contains(svg, "first diverged"));
+  CHECK(contains(svg, "kinetic [MJ]"));
+  // The label of the axis lies in the picture: gnuplot writes it turned, at translate(x,y).
+  const std::size_t turned = svg.find("rotate(270)");
+  REQUIRE(turned != std::string::npos);
+  const std::size_t at = svg.rfind("translate(", turned);
+  CHECK(std::stod(svg.substr(at + 10)) > 8);
+}
