@@ -210,8 +210,11 @@ void draw_drift(const PlotCommand& command, const std::string& path) {
     }
   const std::string span = command.time.empty() ? "until a collapse" : note_of(command, CurveKind::history);
   warn_of(command.words);
+  std::vector<std::string> levels;  // of each run; one number where they agree
+  for (const DriftProfile& profile : profiles) levels.push_back(fmt::format("{}", profile.height.size()));
+  if (std::ranges::count(levels, levels.front()) == std::ptrdiff_t(levels.size())) levels.resize(1);
   const std::string note =
-      fmt::format("{}, {} levels, {}", command.group.empty() ? "all blocks" : command.group, profiles.front().height.size(), span);
+      fmt::format("{}, {} levels, {}", command.group.empty() ? "all blocks" : command.group, fmt::join(levels, " / "), span);
   plot::draw(drift_figure(profiles, joined(note, troubled(command.words))), path);
 }
 

@@ -190,6 +190,22 @@ TEST_CASE("a column that a push lacks is met with those of its curve", "[plot][p
   CHECK(contains(bench.said, "over time: time_s, top_ux_m"));
 }
 
+TEST_CASE("runs of other heights have their own numbers of levels", "[plot][drift][program]") {
+  Bench bench;
+  std::vector<std::string> words{"plot", "--drift"};
+  for (const int count : {3, 5}) {
+    const std::string out = (bench.folder / std::to_string(count)).string();
+    bench.write("pier.lua", fmt::format("material{{ name = 'stone', density = 2000 }} ground{{ size = 4 }}\n"
+                                        "for i = 1, {} do box{{ size = {{ .1, .1, .1 }}, at = {{ 0, 0, .1*i - .1 }} }} end\n"
+                                        "joint{{ law = dry{{ kn = 1*GPa, mu = 0.6 }} }} analysis{{ duration = .05 }}",
+                                        count));
+    REQUIRE(bench.erbs({"run", (bench.folder / "pier.lua").string(), "-o", out, "-q", "--no-figures"}) == 0);
+    words.insert(words.begin() + 1, out);
+  }
+  REQUIRE(bench.erbs(words) == 0);
+  CHECK(contains(text_of(words[1] + "/plot.svg"), "all blocks, 5 / 3 levels"));
+}
+
 TEST_CASE("a plot says that a run diverged, that a file was cut off, and labels an axis of long numbers", "[plot][program]") {
   Bench bench;
   const std::string run = run_folder(bench, "first", 1e14), picture = run + "/plot.svg";
