@@ -9,7 +9,9 @@
 #include "engine/record/folder/motion_file.h"
 #include "engine/record/folder/run_folder.h"
 #include "engine/record/results/compare_runs.h"
+#include "engine/record/results/compare_span.h"
 #include "engine/record/results/curve_figure.h"
+#include "engine/record/results/curves.h"
 #include "engine/record/results/limits.h"
 #include "lua/program/child.h"
 #include "lua/program/options.h"
@@ -125,8 +127,46 @@ bool all_passed(const std::vector<Judged>& judged) {
   return std::all_of(judged.begin(), judged.end(), [](const Judged& j) { return j.passed; });
 }
 
+// The histories of two runs or of a run and a measurement.
+struct Compared {
+  std::vector<ColumnPair> pairs;
+  RunComparison comparison;
+  ComparedSpan span;
+};
+
+std::string status_of(const std::string& folder) { return metrics_of(folder).value("status", "unfinished"); }
+
+std::vector<ColumnPair> pairs_of(const CompareCommand& command, bool of_run) {
+  const std::string &run = command.words[0], &reference = command.words[1];
+  const CsvTable own = read_histories(run), other = of_run ? read_histories(reference) : read_csv(reference);
+  const std::string path = of_run ? run_file(reference, "histories.csv") : reference;
+  return pair_columns(own, other, command.columns, path);
+}
+
+Compared compare_histories(const CompareCommand& command) {
+  const std::string &run = command.words[0], &reference = command.words[1];
+  const TimeSpan chosen = command.time.empty() ? TimeSpan{} : time_span_of(command.time);
+  const bool of_run = is_run_folder(reference);
+  Compared c;
+  c.pairs = pairs_of(command, of_run);
+  if (of_run) {
+    check_blocks(run, reference);
+    const Manifest ours = read_manifest(run), theirs = read_manifest(reference);
+    c.comparison.scenes = SceneDifferences{ours.scene_hash != theirs.scene_hash, compare_params(ours.params, theirs.params)};
+  }
+  c.comparison.shift = find_shift(c.pairs, alignment_of(command, of_run), command.reach);
+  const double lag = c.comparison.shift.lag;
+  for (const ColumnPair& pair : c.pairs) c.comparison.columns.push_back(errors_of(pair, lag, command.reach, chosen));
+  if (of_run) c.comparison.collapse = compare_collapse(metrics_of(run), metrics_of(reference), lag);
+  c.span = span_of(c.pairs, c.comparison.shift, chosen, of_run);
+  c.span.status_run = status_of(run);
+  if (of_run) c.span.status_reference = status_of(reference);
+  return c;
+}
+
 // Lets erbs-render draw and measure, then judges what it found.
 int compare_pictures(const CompareCommand& command, const fs::path& place, const std::vector<Limit>& limits) {
+  if (!command.time.empty()) throw Error("--time is that of histories; a film is compared as long as it lasts, so cut it instead");
   judge(limits, [](const std::string& quantity) { return values_of(Json::object(), quantity); });  // refuses what is not measured
   check_programs({renderer_path()});
   std::vector<std::string> words{command.words[0], "--compare",
@@ -175,37 +215,29 @@ int verb_compare(const CompareCommand& command) {
   const std::vector<Limit> limits = command.expect.empty() ? std::vector<Limit>{} : limits_of(command.expect);
   const std::string &run = command.words[0], &reference = command.words[1];
   const fs::path place = place_of(command);
-  const bool of_run = is_run_folder(reference);
   if (!fs::exists(reference))
     throw Error("there is no such file or folder; name a run folder, a CSV file, a film or a folder of PNG frames", {reference});
-  if (!of_run && !is_table(reference)) return compare_pictures(command, place, limits);
+  if (!is_run_folder(reference) && !is_table(reference)) return compare_pictures(command, place, limits);
   if (!command.film.empty()) throw Error(fmt::format("{} belongs to a film or a folder of frames; leave it out", command.film.front()));
-  const CsvTable own = read_histories(run);
-  const CsvTable other = of_run ? read_histories(reference) : read_csv(reference);
-  if (of_run) check_blocks(run, reference);
-  RunComparison comparison;
-  if (of_run) {
-    const Manifest ours = read_manifest(run), theirs = read_manifest(reference);
-    comparison.scenes = SceneDifferences{ours.scene_hash != theirs.scene_hash, compare_params(ours.params, theirs.params)};
-  }
-  const std::vector<ColumnPair> pairs =
-      pair_columns(own, other, command.columns, of_run ? run_file(reference, "histories.csv") : reference);
-  comparison.shift = find_shift(pairs, alignment_of(command, of_run), command.reach);
-  for (const ColumnPair& pair : pairs) comparison.columns.push_back(errors_of(pair, comparison.shift.lag, command.reach));
-  if (of_run) comparison.collapse = compare_collapse(metrics_of(run), metrics_of(reference), comparison.shift.lag);
+  const Compared compared = compare_histories(command);
+  const RunComparison& comparison = compared.comparison;
+  const std::vector<std::string> gaps = gaps_of(compared.span);
   const std::vector<Judged> judged = judge(limits, [&](const std::string& quantity) { return values_of(comparison, quantity); });
 
   Json json{{"run", fs::canonical(run).string()}, {"reference", fs::canonical(reference).string()}};
   json.update(json_of(comparison));
-  const bool passed = all_passed(judged);
+  json["span"] = json_of(compared.span);
+  const bool passed = all_passed(judged) && (gaps.empty() || limits.empty());
   if (!limits.empty()) json["expectations"] = json_of(judged), json["passed"] = passed;
   fs::create_directories(place);
-  const std::string figure = draw_figure(figure_of(pairs, comparison.shift, fs::canonical(run).filename().string(),
+  const std::string figure = draw_figure(figure_of(compared.pairs, comparison.shift, fs::canonical(run).filename().string(),
                                                    fs::canonical(reference).filename().string(), comparison.scenes),
                                          place);
   write_json((place / "compare.json").string(), json);
+  for (const std::string& gap : gaps) tell(stderr, "warning: " + gap);
   if (!command.output.quiet) {
-    say("{}{}", table_of(comparison), table_of(judged));
+    say("{}{}{}{}", table_of(comparison), table_of(compared.span), table_of(judged),
+        passed || gaps.empty() || limits.empty() ? "" : "FAILED   what is compared is not the whole, see the warning\n");
     say("results in {}{}\n", shown(place.string(), 400), figure.empty() ? "" : ": compare.json, compare.svg");
   }
   return passed ? exit_ok : exit_expectation;

@@ -136,14 +136,19 @@ void add_compare(CLI::App& app, CompareCommand& command) {
   compare.add_option("--align", command.align, "how times are brought together (default none for a run, otherwise correlation)")
       ->check(CLI::IsMember({"none", "first-motion", "correlation"}));
   add_time(compare, "--reach", command.reach, "the largest lag that is searched (default 5s)", "5s");
+  compare.add_option("--time", command.time, "only this span, in the time of the reference, s (default: what both have)")
+      ->check(filled())
+      ->type_name("T0:T1");
   compare.add_option("--columns", command.columns, "further pairs of columns of the two")
       ->delimiter(',')
       ->check(filled())
       ->type_name("RUN=REF");
   compare
-      .add_option("--expect", command.expect,
-                  "limits such as peak<5%,correlation>.9; exit code 4 beyond. Of runs: " + compared_names(false) +
-                      "; of a film: " + compared_names(true))
+      .add_option(
+          "--expect", command.expect,
+          "limits such as peak<5%,correlation>.9; exit code 4 beyond, and where a run is unfinished or the two have less than 95 % of "
+          "their time in common, unless --time says the part. Of runs: " +
+              compared_names(false) + "; of a film: " + compared_names(true))
       ->check(filled())
       ->type_name("'peak<5%,lag<.01'");
   for (const auto& [name, text] : film_options()) {
@@ -191,13 +196,13 @@ void add_others(CLI::App& app, CommandLine& line) {
           "poses")
       ->delimiter(',')
       ->check(CLI::IsMember({"gltf", "vtu", "xdmf", "hdf5", "obj", "csv"}));
+  for (const auto& [flag, format] : {std::pair{"--glb", "gltf"}, {"--vtk", "vtu"}, {"--csv", "csv"}})
+    exported.add_flag_callback(
+        flag, [&line, format = format] { line.exported.short_forms.emplace_back(format); }, fmt::format("short for --format {}", format));
   exported.add_option("--time", line.exported.time, "only this span, s")->type_name("T0:T1");
   exported.add_option("--every", line.exported.every, "every N-th frame, and the last")->check(within(1, 1000000));
   exported.add_option("--at", line.exported.at, "the instant of an OBJ, s (default: the last frame)")->check(within(-1e9, 1e9));
   add_output(exported, line.exported.output, "DIR/export");
-  for (const auto& [flag, format] : {std::pair{"--glb", "gltf"}, {"--vtk", "vtu"}, {"--csv", "csv"}})
-    exported.add_flag_callback(
-        flag, [&line, format = format] { line.exported.short_forms.emplace_back(format); }, fmt::format("short for --format {}", format));
 
   CLI::App& record = *app.add_subcommand("record", "report a ground motion: points, dt, peaks, end values, Arias intensity, spectrum");
   record.add_option("FILE", line.record.words, "PEER AT2, ESM, COSMOS or CSMIP V2, CSV or text of columns")->required();

@@ -107,6 +107,7 @@ struct CompareCommand {
   OutputOptions output;
   std::string align, expect;      // align: none, first-motion, correlation; "": as the reference asks
   double reach = 5;               // s, largest lag
+  std::string time;               // --time T0:T1
   std::vector<std::string> film;  // options for erbs-render, each with its value
 };
 struct SweepCommand {

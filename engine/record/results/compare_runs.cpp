@@ -164,11 +164,11 @@ TimeShift find_shift(const std::vector<ColumnPair>& pairs, Alignment how, double
   return shift;
 }
 
-ColumnErrors errors_of(const ColumnPair& pair, double shift, double reach) {
+ColumnErrors errors_of(const ColumnPair& pair, double shift, double reach, const TimeSpan& span) {
   ColumnErrors e;
   e.name = pair.name;
-  const double from = std::max(pair.run.t.front() - shift, pair.reference.t.front());
-  const double to = std::min(pair.run.t.back() - shift, pair.reference.t.back());
+  const double from = std::max({pair.run.t.front() - shift, pair.reference.t.front(), span.from});
+  const double to = std::min({pair.run.t.back() - shift, pair.reference.t.back(), span.to});
   if (!(to > from))
     throw Error(
         fmt::format("the run and the reference have no time in common in {}, from {:g} s to {:g} s; align them by --align correlation",

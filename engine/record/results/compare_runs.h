@@ -7,6 +7,7 @@
 #include "engine/base/correlation.h"
 #include "engine/record/format/csv.h"
 #include "engine/record/format/json.h"
+#include "engine/record/results/curves.h"
 #include "engine/scene/scene.h"
 
 namespace erbs {
@@ -36,7 +37,8 @@ struct TimeShift {
 // Taken from the displacement of the largest peak, or from the first column without any. `reach`: s, the largest lag.
 TimeShift find_shift(const std::vector<ColumnPair>& pairs, Alignment how, double reach);
 
-// A pair over its common time, after the shift. Errors are relative to the reference unless a unit is given.
+// A pair over its common time, after the shift, within a span of the time of the reference. Errors are relative to the reference unless a
+// unit is given.
 struct ColumnErrors {
   std::string name;
   double peak_run = NAN, peak_reference = NAN, peak_error = NAN;                 // largest magnitudes, with sign; error of the magnitude
@@ -45,7 +47,7 @@ struct ColumnErrors {
   double lag = NAN, correlation = NAN;                                           // s, what remains after the shift; Pearson's coefficient
   double frequency_run = NAN, frequency_reference = NAN, frequency_error = NAN;  // Hz, of the highest peak of the spectrum
 };
-ColumnErrors errors_of(const ColumnPair& pair, double shift, double reach);
+ColumnErrors errors_of(const ColumnPair& pair, double shift, double reach, const TimeSpan& span = {});
 
 // `collapse` of two metrics.json.
 struct CollapseErrors {

@@ -1,5 +1,6 @@
 // erbs compare as a user calls it.
 #include <catch2/catch.hpp>
+#include <sstream>
 
 #include "engine/record/format/json.h"
 #include "lua/program/options.h"
@@ -59,4 +60,25 @@ TEST_CASE("erbs compare judges a run against another run", "[compare][program]")
   CHECK(bench.erbs({"compare", a, (bench.folder / "m.csv").string(), "-o", place}) == exit_usage);
   CHECK(bench.said.find("m.csv:1") != std::string::npos);
   CHECK_FALSE(std::filesystem::exists(place));
+}
+
+TEST_CASE("erbs compare does not pass a run that has not ended, nor a small part of two", "[compare][program]") {
+  Bench bench;
+  const std::string whole = shaken(bench, "a", "0.1*g"), broken = shaken(bench, "b", "0.1*g");
+  std::filesystem::remove(broken + "/metrics.json");  // as kill -9 leaves it
+  std::istringstream rows(text_of(broken + "/histories.csv"));
+  std::string head, line;
+  for (int i = 0; i < 20 && std::getline(rows, line); ++i) head += line + "\n";
+  std::ofstream(broken + "/histories.csv") << head;
+  const std::string place = (bench.folder / "c").string();
+  CHECK(bench.erbs({"compare", broken, whole, "-o", place}) == exit_ok);
+  CHECK(contains(bench.said, "status      run unfinished, reference completed"));
+  CHECK(contains(bench.said, "warning: the run is unfinished"));
+  CHECK(contains(bench.said, "of the longer run ("));
+  CHECK(bench.erbs({"compare", broken, whole, "-o", place, "--force", "--expect", "peak<5%"}) == exit_expectation);
+  CHECK(read_json(place + "/compare.json")["passed"] == false);
+  CHECK(read_json(place + "/compare.json")["span"]["whole"] == false);
+  CHECK(bench.erbs({"compare", broken, whole, "-o", place, "--force", "--expect", "peak<5%", "--time", "0:.05"}) == exit_ok);
+  CHECK(bench.erbs({"compare", broken, whole, "-o", place, "--force", "--expect", "peak<5%", "--time", "0:.4"}) == exit_expectation);
+  CHECK(contains(bench.said, "of the span that --time asks for"));
 }
