@@ -134,13 +134,32 @@ struct Compared {
   ComparedSpan span;
 };
 
+bool has_response_of(const CsvTable& a, const CsvTable& b) {
+  return std::ranges::any_of(a.names, [&](const std::string& name) {
+    return name != "time_s" && !name.starts_with("ground_a") && std::ranges::find(b.names, name) != b.names.end();
+  });
+}
+
+// Histories and energies of a run. What is left out is error of the numbers, which no two runs share.
+CsvTable with_energies(const std::string& folder) {
+  CsvTable table = read_columns(folder);
+  for (std::size_t c = table.names.size(); c-- > 0;) {
+    if (!table.names[c].starts_with("residual") && table.names[c] != "reset_J") continue;
+    const auto at = std::ptrdiff_t(c);
+    table.names.erase(table.names.begin() + at), table.columns.erase(table.columns.begin() + at), table.text.erase(table.text.begin() + at);
+  }
+  return table;
+}
+
 std::string status_of(const std::string& folder) { return metrics_of(folder).value("status", "unfinished"); }
 
 std::vector<ColumnPair> pairs_of(const CompareCommand& command, bool of_run) {
   const std::string &run = command.words[0], &reference = command.words[1];
   const CsvTable own = read_histories(run), other = of_run ? read_histories(reference) : read_csv(reference);
   const std::string path = of_run ? run_file(reference, "histories.csv") : reference;
-  return pair_columns(own, other, command.columns, path);
+  if (!of_run || !command.columns.empty() || has_response_of(own, other)) return pair_columns(own, other, command.columns, path);
+  if (!command.output.quiet) say("the histories have no response in common: energies are compared\n");
+  return pair_columns(with_energies(run), with_energies(reference), {}, run_file(reference, "energy.csv"));
 }
 
 Compared compare_histories(const CompareCommand& command) {

@@ -82,3 +82,22 @@ TEST_CASE("erbs compare does not pass a run that has not ended, nor a small part
   CHECK(bench.erbs({"compare", broken, whole, "-o", place, "--force", "--expect", "peak<5%", "--time", "0:.4"}) == exit_expectation);
   CHECK(contains(bench.said, "of the span that --time asks for"));
 }
+
+TEST_CASE("erbs compare of runs without a response in their histories compares energies and collapse", "[compare][program]") {
+  Bench bench;
+  const auto settled = [&](const std::string& name, const char* height) {
+    const std::string out = (bench.folder / name).string();
+    bench.write(name + ".lua", four_bricks() + "box{ name = 'top', size = { .1, .1, .1 }, at = { 0, 0, " + height + " }, free = true }\n" +
+                                   "joint{ law = dry{ kn = 1*GPa, mu = 0.6 } }\nanalysis{ duration = .3 }");
+    REQUIRE(bench.erbs({"run", (bench.folder / (name + ".lua")).string(), "-o", out, "-q", "--no-figures"}) == exit_ok);
+    return out;
+  };
+  const std::string low = settled("low", ".5"), high = settled("high", ".6"), place = (bench.folder / "c").string();
+  CHECK(bench.erbs({"compare", low, low, "-o", place, "--expect", "peak<1%,collapse_time<.01"}) == exit_ok);
+  CHECK(contains(bench.said, "energies are compared"));
+  CHECK(contains(bench.said, "collapse    run "));
+  const Json same = read_json(place + "/compare.json");
+  CHECK(same["columns"].contains("kinetic_J"));
+  CHECK_FALSE(same["columns"].contains("residual_J"));
+  CHECK(bench.erbs({"compare", low, high, "-o", place, "--force", "--expect", "peak<1%"}) == exit_expectation);
+}
