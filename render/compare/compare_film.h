@@ -19,7 +19,8 @@ struct FilmComparison {
   double residual = NAN;   // px, of a camera from marked points
 };
 
-inline constexpr double doubtful = 0.9;  // a lower correlation of motions
+inline constexpr double doubtful = 0.9;      // a lower correlation of motions
+inline constexpr double known_share = 0.25;  // of the time between two pictures: noise of H.264 lets no lag be known better
 
 // Errors of one picture of the film; time is that of the film (s).
 struct FrameErrors {

@@ -133,7 +133,9 @@ void write_film_errors(const FilmErrors& e, const FilmComparison& wish, bool qui
                      "IoU: a title, legend or strip, or what stands beside the structure. Draw films of erbs render with --no-overlay; for "
                      "others give a picture of the scene without the structure, by --film-background FILE.png",
                      100 * e.standing));
-  if (e.outside > 0) tell(stderr, fmt::format("warning: {} pictures of the film lie outside the run and are left out", e.outside));
+  if (e.outside > 0)
+    tell(stderr, fmt::format("warning: {} picture{} outside the run: left out", e.outside,
+                             e.outside == 1 ? " of the film lies" : "s of the film lie"));
   if (e.at_edge) tell(stderr, "warning: the best lag is the largest one searched; the true one may lie beyond, see --reach");
   if (wish.align == "correlation" && e.correlation < doubtful) {
     const std::string way = std::isfinite(e.better_slow) ? fmt::format("with --slow {:g} they correlate by {:.2f}; is the film that slow?",
@@ -144,8 +146,8 @@ void write_film_errors(const FilmErrors& e, const FilmComparison& wish, bool qui
   if (quiet) return;
   tell(stdout, fmt::format("pictures    {} compared in {:.1f} s, {:.0f} a second; {} outside the run; measured at 1/{} of their size",
                            e.frames.size(), e.wall, double(e.frames.size()) / e.wall, e.outside, e.reduction));
-  tell(stdout, fmt::format("time        aligned by {}: the run is {:+.4f} s later than the film (correlation {:.3f})", wish.align, e.lag,
-                           e.correlation));
+  tell(stdout, fmt::format("time        aligned by {}: the run is {:+.4f} s later than the film{} (correlation {:.3f})", wish.align, e.lag,
+                           e.lag != 0 && std::abs(e.lag) < known_share / e.fps ? ", less than a quarter of a picture" : "", e.correlation));
   tell(stdout, fmt::format("silhouette  mean IoU {:.3f}, least {:.3f} (background of the film: {})", iou, least, wish.background));
   tell(stdout, fmt::format("SSIM        mean {:.3f}", ssim));
   const auto degrees = [](double value, int digits) { return std::isfinite(value) ? fmt::format("{:.{}f} deg", value, digits) : "none"; };

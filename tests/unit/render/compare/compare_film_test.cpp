@@ -78,6 +78,23 @@ TEST_CASE("the shift of a film is found to half a picture, and its noise tells n
   }
 }
 
+TEST_CASE("a film of the run itself has no lag, where long shadows move", "[render][compare][program]") {
+  lua::Bench bench;
+  REQUIRE(bench.run("material { name = 'stone', density = 2200 } ground { z = 0, size = 200, material = 'stone' }\n"
+                    "joint { law = mortar { E = 2*GPa, thickness = 0.02, ft = 0.2*MPa, c = 0.3*MPa, mu = 0.7 }, thickness = 0.02 }\n"
+                    "for i = 0, 19 do box { size = { 6, 6, 2.98 }, at = { 0, 0, 0.02 + 3 * i }, material = 'stone' } end\n"
+                    "ground_motion { wave = sine { amplitude = 0.6 * g, frequency = 0.3 * Hz }, direction = 'x' }\n"
+                    "analysis { duration = 8 }",
+                    {"-q", "--no-figures"}) == 0);
+  REQUIRE(bench.erbs({"render", bench.out(), "--size", "640x360", "--no-overlay", "--no-figures", "-q"}) == 0);
+  std::string film;
+  for (const auto& entry : std::filesystem::directory_iterator(bench.out()))
+    if (entry.path().extension() == ".mp4") film = entry.path().string();
+  CHECK(bench.erbs({"compare", bench.out(), film, "--film-background", "drawn", "--expect", "shift<.01,iou>.95"}) == 0);
+  INFO(bench.said);
+  CHECK(read_json(bench.out() + "/compare/frames.json")["frames_outside"] == 0);
+}
+
 TEST_CASE("a film in slow motion is recognised", "[render][compare][program]") {
   Films films;
   const std::string slow = GENERATE("2", "4", "1");
