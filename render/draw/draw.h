@@ -46,19 +46,19 @@ struct Show {
   const MotionScene* scene = nullptr;
   Stage stage;
   Mesh mesh;
-  double chamfer = 0;             // m
-  double fine_width = 0;          // m, of chamfers and mortar
-  double open_crack = 0;          // m, a hundredth of the thinnest brick: a joint parted this far is drawn as open
-  bool mortared = false;          // joints have thickness: mortar between the bricks, not an edge
-  std::string cut;                // "cut at x = 1.2 m" of a section; else empty
-  double grid = 1;                // m, spacing of the lines on the ground
-  std::vector<float> joint_area;  // m2 [joints]
+  double chamfer = 0;              // m
+  double fine_width = 0;           // m, of chamfers and mortar
+  double open_crack = 0;           // m, a hundredth of the thinnest brick: a joint parted this far is drawn as open
+  bool mortared = false;           // joints have thickness: mortar between the bricks, not an edge
+  std::string cut;                 // "cut at x = 1.2 m" of a section; else empty
+  double grid = 1;                 // m, spacing of the lines on the ground
+  std::vector<float> joint_area;   // m2 [joints]
   std::vector<float> opened_from;  // m, opening from which a joint without bond counts as one that opened; infinite with a bond [joints]
-  double scale = 1;               // m, m/s, J or Pa, the value that has the last colour of the map
-  bool replaced = false;          // contact has taken the place of joints, which then tell no forces and stresses
-  std::vector<Vec3> block_color;  // linear, by material with a slight variation between bricks [blocks]
-  std::vector<bool> ghost;        // drawn translucent, without shadow [blocks]
-  std::vector<float> radius;      // m, of a sphere about the centroid of each block, its mortar included; 0: not drawn [blocks]
+  double scale = 1;                // m, m/s, J or Pa, the value that has the last colour of the map
+  bool replaced = false;           // contact has taken the place of joints, which then tell no forces and stresses
+  std::vector<Vec3> block_color;   // linear, by material with a slight variation between bricks [blocks]
+  std::vector<bool> ghost;         // drawn translucent, without shadow [blocks]
+  std::vector<float> radius;       // m, of a sphere about the centroid of each block, its mortar included; 0: not drawn [blocks]
 };
 Show prepare_show(const MotionScene& scene, const Run& run, const std::vector<MotionFrame>& some_frames);
 // The same on a stage that is set, with ghosts (empty: none) and a section whose side is known.
