@@ -21,6 +21,9 @@ double value_at(const GroundRecord& r, double t) {
   return r.a[after - 1] + s * (r.a[after] - r.a[after - 1]);
 }
 
+// "mm/s" of "20 mm/s"
+std::string unit_of_number(const std::string& text) { return text.substr(text.find_last_of(' ') + 1); }
+
 // At a share of a scale (Pa); the unit stands at its end only, where there is room.
 std::string stress_text(double share, double scale) {
   const bool mega = scale >= 1e5, kilo = scale >= 100;
@@ -267,10 +270,14 @@ double Overlay::draw_map(Image& image) const {
     fill_box(image, left + c, y + 8 * u, left + c + 1, y + 19 * u,
              display(look_.coloring == Coloring::damage ? damage_color(c / width) : map_color(c / width)));
   regular_.draw(image, map_number(0), left, y + 33 * u, size, quiet_ink);
-  regular_.draw(image, map_number(0.5), 0.5 * (left + right), y + 33 * u, size, quiet_ink, Font::Align::middle);
   // What moves more than 98 % of the blocks has the last colour too.
-  regular_.draw(image, (look_.coloring == Coloring::damage ? "" : "\u2265 ") + map_number(1), right, y + 33 * u, size, quiet_ink,
-                Font::Align::right);
+  const std::string end = (look_.coloring == Coloring::damage ? "" : "\u2265 ") + map_number(1), unit = unit_of_number(end);
+  std::string half = map_number(0.5);
+  const double room = 0.5 * width - regular_.width(end, size) - 6 * u;
+  // Where there is no room for the unit, it stands at the end alone; another one there would mislead.
+  if (0.5 * regular_.width(half, size) > room) half = unit_of_number(half) == unit ? half.substr(0, half.find(' ')) : "";
+  regular_.draw(image, half, 0.5 * (left + right), y + 33 * u, size, quiet_ink, Font::Align::middle);
+  regular_.draw(image, end, right, y + 33 * u, size, quiet_ink, Font::Align::right);
   return y + 36 * u + more;
 }
 
