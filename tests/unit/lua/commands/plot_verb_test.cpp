@@ -89,7 +89,7 @@ TEST_CASE("each mistake has its cause and its remedy", "[plot][program]") {
   refused({(bench.folder / "absent").string(), "--y", "a"}, "erbs run SCENE.lua");
   refused({(bench.folder / "empty").string(), "--y", "a"}, "neither histories.csv nor energy.csv");
   refused({(bench.folder / "begun").string(), "--y", "top_ux_m"}, "no rows");
-  refused({run}, "--list lists them");
+  refused({run}, "--list says what they are");
   refused({run, "--y", "top_vx_m"}, "did you mean \"top_ux_m\"");
   refused({run, "--y", "top_ux_m", "--x", "top"}, "name one of them");
   refused({run, "--y", "top_ux_m", "--time", "3:1"}, "try 2:4.5");
