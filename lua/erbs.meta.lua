@@ -672,7 +672,7 @@ function expect_image(camera, t, how) end
 ---@field lo number value at which the structure stands (it may be the larger one) [-1e+300 to 1e+300]
 ---@field hi number value at which it collapses [-1e+300 to 1e+300]
 ---@field collapsed_when? fun(run: erbs.run): number|boolean? function(run) that returns true or false (default: collapse.collapsed of the run)
----@field rel? number width of the last bracket over its larger end [1e-12 to 1; default 0.01]
+---@field rel? number width of the last bracket over its larger end, or over a thousandth of hi - lo if that is more [1e-12 to 1; default 0.01]
 ---@field points? integer runs between the ends in each round; where the verdict comes and goes, as with rocking, many find its first yes [1 to 1000; default 3]
 ---@field name? string stem of its metrics (default collapse_PARAM)
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "engine/base/error.h"
 
@@ -21,9 +22,17 @@ std::vector<double> Bracket::next() const {
   if (!trouble_.empty()) return {};
   if (!asked_) return {first_, last_};
   std::vector<double> xs;
-  if (std::fabs(hi() - lo()) > rel_ * std::max(std::fabs(lo()), std::fabs(hi())))
+  if (std::fabs(hi() - lo()) > last_width())
     for (int i = 1; i <= points_; ++i) xs.push_back(at(lo_ + (hi_ - lo_) * i / (points_ + 1)));
   return xs;
+}
+
+// A threshold of zero has no larger end, which is what the share of the range is for. The last term keeps the values of a round apart.
+double Bracket::last_width() const {
+  constexpr double least = 1e-3;  // share of the range
+  const double size = std::max({std::fabs(lo()), std::fabs(hi()), least * std::fabs(last_ - first_)});
+  const double rounding = std::numeric_limits<double>::epsilon() * std::max(std::fabs(first_), std::fabs(last_));
+  return std::max(rel_ * size, 8.0 * (points_ + 1) * rounding);
 }
 
 void Bracket::take_ends(const std::vector<Answer>& ends) {

@@ -20,7 +20,8 @@ std::string first_reason(const std::vector<Answer>& answers);  // of the first a
 // without an answer does not change the bracket. The rounds depend on the answers alone, and so does the result.
 class Bracket {
  public:
-  // lo: value of a no, hi: value of a yes; lo may be the larger one. rel: width of the last bracket over its larger end.
+  // lo: value of a no, hi: value of a yes; lo may be the larger one. rel: width of the last bracket over its larger end, or over a
+  // thousandth of hi - lo if that is more: a threshold of zero is found to 1e-3 rel of the range.
   Bracket(double lo, double hi, double rel, int points);
   std::vector<double> next() const;               // values of the next round, first the two ends; empty once it is finished
   void take(const std::vector<Answer>& answers);  // of that round, in its order
@@ -33,6 +34,7 @@ class Bracket {
 
  private:
   double at(double share) const { return share == 0 ? first_ : share == 1 ? last_ : first_ + share * (last_ - first_); }
+  double last_width() const;
   void take_ends(const std::vector<Answer>& ends);
   double first_, last_, rel_;
   int points_;

@@ -19,7 +19,7 @@ struct Study {
   std::string unit;            // of the answer
   bool collapse = false;       // the answer is collapse.collapsed, not a function of the scene
   double lo = 0, hi = 0;       // bisect: value at which the structure stands, value at which it collapses
-  double rel = 0.01;           // bisect: width of the last bracket, relative to its larger end
+  double rel = 0.01;           // bisect: width of the last bracket over its larger end, or over a thousandth of hi - lo
   int points = 3;              // bisect: runs between the ends at a time; the same on all machines, and so is the answer
   std::vector<double> values;  // converge
   bool finest = false;         // converge: errors are distances from the answer at the smallest value

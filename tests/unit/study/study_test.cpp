@@ -48,6 +48,33 @@ TEST_CASE("bisection brackets a threshold, whichever end is the larger", "[study
   CHECK(metric(down, "fall") == Approx(0.37).epsilon(1e-4));
 }
 
+TEST_CASE("bisection ends where the threshold is zero, at an end or between, and where doubles do", "[study]") {
+  int runs = 0;
+  const auto moves = answers([&](double x) {
+    REQUIRE(++runs < 500);
+    return x > 0;
+  });
+  const StudyResult end = carry_out(threshold(0, 1), moves);
+  CHECK(end.trouble.empty());
+  CHECK(*metric(end, "fall_lo") == 0);
+  CHECK(*metric(end, "fall_hi") <= 1e-4 * 1e-3);  // rel of a thousandth of the range
+  CHECK(runs < 50);
+  runs = 0;
+  const StudyResult between = carry_out(threshold(-1, 2), moves);
+  CHECK(between.trouble.empty());
+  CHECK(std::fabs(*metric(between, "fall")) <= 3e-7);
+  CHECK(runs < 60);
+  runs = 0;
+  Study finest = threshold(-1, 1);
+  finest.rel = 1e-12;
+  for (const int points : {1, 3, 400}) {
+    runs = 0, finest.points = points;
+    const StudyResult found = carry_out(finest, points > 100 ? answers([](double x) { return x > 0; }) : moves);
+    CHECK(found.trouble.empty());
+    CHECK(std::fabs(*metric(found, "fall")) < 1e-11);
+  }
+}
+
 TEST_CASE("bisection says where its ends are wrong, and goes on past runs that fail", "[study]") {
   CHECK_THAT(carry_out(threshold(4, 10), answers([](double x) { return x > 3; })).trouble,
              Catch::Contains("yes at lo = 4 already; lower it"));
