@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <filesystem>
 #include <map>
+#include <optional>
 
-#include "engine/record/format/csv.h"
 #include "engine/study/bracket.h"
 #include "engine/study/calibrate/least_squares.h"
+#include "engine/study/calibrate/run_table.h"
 #include "engine/study/pool.h"
 #include "engine/study/sweep/one_run.h"
 
@@ -22,13 +24,12 @@ using Values = std::map<std::string, double>;  // of the params that have been f
 
 class Calibrator {
  public:
-  Calibrator(const Sweep& sweep, bool resume) : s_(sweep), c_(*sweep.plan.calibration), keys_(sweep.plan.collect) {
-    std::vector<std::string> names{"run", "stage"};
-    names.insert(names.end(), s_.params.begin(), s_.params.end());
-    names.insert(names.end(), s_.collected.begin(), s_.collected.end());
-    names.insert(names.end(), {"sum_of_squares", "status", "reason"});
-    const std::string path = s_.directory + "/" + calibration_table;
-    table_ = resume && fs::exists(path) ? CsvWriter(path, names, take_known(path)) : CsvWriter(path, names);
+  Calibrator(const Sweep& sweep, bool resume)
+      : s_(sweep),
+        c_(*sweep.plan.calibration),
+        keys_(sweep.plan.collect),
+        table_(s_.directory + "/" + calibration_table, columns(), resume) {
+    take_earlier();
   }
 
   Calibrated run() {
@@ -50,54 +51,80 @@ class Calibrator {
     std::string reason;
   };
 
-  // Takes the runs of an earlier table up to the two that are kept, which are made anew. The fit goes the same way again, and so it finds
-  // them at once. Number of rows that stay.
-  long take_known(const std::string& path) {
-    const CsvTable table = read_csv(path);
-    const std::vector<std::string> params = varied_params(s_.plan);
-    const auto text = [&](const char* column, std::size_t i) {
-      const std::vector<std::string>& cells = table.text[std::size_t(table.find(column))];
-      return cells.empty() ? std::string() : cells[i];  // a column of empty cells has no text
-    };
-    for (std::size_t i = 0; i < table.rows() && table.column("stage")[i] > 0; ++i) {
-      Values values;
-      for (std::size_t k = 0; k < params.size(); ++k)
-        if (const double value = table.column(s_.params[k])[i]; std::isfinite(value)) values[params[k]] = value;
-      Row row;
-      for (const std::string& name : s_.collected) row.got.push_back(table.column(name)[i]);
-      row.reason = text("reason", i), row.sound = text("status", i) == "completed" && row.reason.empty();
-      count(row);
-      known_[values] = std::move(row);
-    }
-    return out_.runs;
+  std::vector<std::string> columns() const {
+    std::vector<std::string> names{"run", "stage"};
+    names.insert(names.end(), s_.params.begin(), s_.params.end());
+    names.insert(names.end(), s_.collected.begin(), s_.collected.end());
+    names.insert(names.end(), {"sum_of_squares", "status", "reason"});
+    return names;
   }
 
-  // Runs the scene with each of the values, side by side. A run that was made before is not repeated.
+  static double number_in(const std::string& cell) {
+    char* end = nullptr;
+    const double value = std::strtod(cell.c_str(), &end);
+    return end != cell.c_str() && *end == 0 && std::isfinite(value) ? value : NAN;
+  }
+
+  // Reads the runs of an earlier table. The fit goes the same way again, and so it finds them where it asks for them.
+  void take_earlier() {
+    const std::vector<std::string> params = varied_params(s_.plan);
+    for (const auto& [run, cells] : table_.rows()) {
+      Values values;
+      for (std::size_t k = 0; k < params.size(); ++k)
+        if (const double value = number_in(table_.cell(cells, s_.params[k])); std::isfinite(value)) values[params[k]] = value;
+      Row row;
+      for (const std::string& name : s_.collected) row.got.push_back(number_in(table_.cell(cells, name)));
+      row.reason = table_.cell(cells, "reason");
+      row.sound = table_.cell(cells, "status") == "completed" && row.reason.empty();
+      earlier_[values] = std::move(row);
+    }
+  }
+
+  // Of `all` those that have no answer yet, each once.
+  std::vector<Values> unknown(const std::vector<Values>& all, bool anew) const {
+    std::vector<Values> out;
+    for (const Values& values : all)
+      if ((anew || !known_.contains(values)) && std::find(out.begin(), out.end(), values) == out.end()) out.push_back(values);
+    return out;
+  }
+
+  // Runs the scene with each of the values, side by side. A run that was made before is not repeated. With a `name` it is made in any
+  // case, and its folder stays.
   std::vector<Row> evaluate(const std::vector<Values>& all, const std::string& name = "") {
+    const std::vector<Values> asked = unknown(all, !name.empty());
+    const int before = out_.runs;  // numbers tell the order in which runs were asked for, whichever ends first
+    std::vector<std::optional<Row>> rows(asked.size());
     std::vector<std::size_t> waiting;
-    for (std::size_t i = 0; i < all.size(); ++i)
-      if ((!name.empty() || !known_.contains(all[i])) &&
-          std::find(all.begin(), all.begin() + std::ptrdiff_t(i), all[i]) == all.begin() + std::ptrdiff_t(i))
-        waiting.push_back(i);
+    for (std::size_t i = 0; i < asked.size(); ++i)
+      if (const auto found = earlier_.find(asked[i]); name.empty() && found != earlier_.end()) rows[i] = found->second;
+      else waiting.push_back(i);
+    const auto place = [&](std::size_t i) { return name.empty() ? fmt::format("r{:04}", before + int(i) + 1) : name; };
     Pool pool(s_.at_once);
-    std::vector<RunRow> rows(all.size());
     std::size_t next = 0;
-    const auto place = [&](std::size_t i) { return name.empty() ? fmt::format("r{:04}", out_.runs + int(i) + 1) : name; };
     while (!pool.empty() || (next < waiting.size() && !interrupted())) {
       for (; next < waiting.size() && !pool.full() && !interrupted(); ++next) {
         Point point;
-        for (const auto& [param, value] : all[waiting[next]]) point.emplace_back(param, value);
+        for (const auto& [param, value] : asked[waiting[next]]) point.emplace_back(param, value);
         fs::create_directories(s_.directory + "/runs");
-        pool.add(next, job_of(s_, point, 0, place(next)));
+        pool.add(waiting[next], job_of(s_, point, 0, place(waiting[next])));
       }
       if (interrupted()) pool.interrupt_all();
       const auto ended = pool.wait(0.5);
-      if (!ended) continue;
-      rows[waiting[ended->id]] = read_run(s_, {}, 0, place(ended->id), *ended);
-      if (name.empty()) tidy(s_, rows[waiting[ended->id]], place(ended->id));
+      if (!ended || interrupted()) continue;
+      const std::size_t i = ended->id;
+      const RunRow run = read_run(s_, {}, 0, place(i), *ended);
+      rows[i] = note(asked[i], run, before + int(i) + 1);
+      if (name.empty()) tidy(s_, run, place(i));
     }
+    return collect(all, asked, std::move(rows));
+  }
+
+  // Counts the runs of a batch in their order, and answers for all of it.
+  std::vector<Row> collect(const std::vector<Values>& all, const std::vector<Values>& asked, std::vector<std::optional<Row>> rows) {
+    for (std::size_t i = 0; i < asked.size(); ++i)
+      if (rows[i]) count(*rows[i]), known_[asked[i]] = std::move(*rows[i]);
     if (interrupted()) throw Interrupted{};
-    for (const std::size_t i : waiting) note(all[i], rows[i]);
+    table_.sort();
     if (s_.progress) s_.progress({.points = 0, .done = out_.runs, .failed = out_.discarded, .runs = out_.runs});
     std::vector<Row> answers;
     for (const Values& values : all) answers.push_back(known_.at(values));
@@ -106,27 +133,23 @@ class Calibrator {
 
   bool interrupted() const { return s_.interrupted != nullptr && s_.interrupted->load(); }
 
-  void note(const Values& values, const RunRow& run) {
+  Row note(const Values& values, const RunRow& run, int number) {
     Row row;
     row.sound = run.answered();
     row.reason = run.reason.empty() ? run.status : run.status + ": " + run.reason;
     for (const std::string& cell : run.values) {
-      char* end = nullptr;
-      const double value = std::strtod(cell.c_str(), &end);
-      const bool number = end != cell.c_str() && *end == 0 && std::isfinite(value);
-      row.got.push_back(number ? value : NAN);
-      if (!number && row.sound) row.sound = false, row.reason = fmt::format("{} has no number in this run", keys_[row.got.size() - 1]);
+      row.got.push_back(number_in(cell));
+      if (std::isnan(row.got.back()) && row.sound)
+        row.sound = false, row.reason = fmt::format("{} has no number in this run", keys_[row.got.size() - 1]);
     }
-    count(row);
-    std::vector<std::string> cells{fmt::format("{}", out_.runs), fmt::format("{}", stage_)};
+    std::vector<std::string> cells{fmt::format("{}", stage_)};
     for (const std::string& param : varied_params(s_.plan))
       cells.push_back(values.contains(param) ? fmt::format("{}", values.at(param)) : "nan");
     for (const double x : row.got) cells.push_back(fmt::format("{}", x));
     cells.push_back(row.sound ? fmt::format("{:.6g}", sum_of_squares(residuals(row))) : "nan");
     cells.insert(cells.end(), {run.status, row.sound ? "" : row.reason});
-    table_.text_row(cells);
-    table_.flush();
-    known_[values] = std::move(row);
+    table_.add(number, std::move(cells));
+    return row;
   }
 
   void count(const Row& row) {
@@ -238,8 +261,8 @@ class Calibrator {
   const Sweep& s_;
   const Calibration& c_;
   const std::vector<std::string>& keys_;
-  CsvWriter table_;
-  std::map<Values, Row> known_;
+  RunTable table_;
+  std::map<Values, Row> known_, earlier_;  // asked for by now; in the table of a calibration that was cut off
   Values fitted_;
   Calibrated out_;
   int stage_ = 0;

@@ -2,6 +2,7 @@
 #include <catch2/catch.hpp>
 #include <chrono>
 #include <cmath>
+#include <csignal>
 #include <filesystem>
 #include <thread>
 
@@ -120,6 +121,27 @@ TEST_CASE("a calibration that was cut off goes on, and ends with the same values
   CHECK_THAT(bench.said, Catch::Contains("go on with --resume"));
   CHECK(bench.calibrate(study_of("{ fit = { a = { .1, 10 } } }"), {"--resume"}) == 2);
   CHECK_THAT(bench.said, Catch::Contains("holds another calibration"));
+}
+
+TEST_CASE("a calibration that is killed within a batch of runs keeps those that had ended", "[calibrate]") {
+  Calibration bench;
+  const std::string study = study_of("{ fit = { a = { .1, 10, log = true }, b = { 0, 2 } } }");
+  REQUIRE(bench.calibrate(study) == 0);
+  const Json whole = bench.result();
+  const std::string path = bench.out() + "/calibration.csv", table = text_of(path);
+  const Child killed = start(bench.command({"calibrate", (bench.folder / "study.lua").string(), "-o", bench.out(), "-j", "2", "--force"}),
+                             (bench.folder / "killed").string());
+  const std::size_t batch = 17;  // runs of the first round
+  const auto rows = [&] { return fs::exists(path) && fs::file_size(path) > 0 ? read_csv(path).rows() : 0; };
+  const auto begun = [&] { return !fs::exists(bench.out() + "/calibration.json") && rows() >= 3; };
+  for (int i = 0; i < 4000 && !begun(); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  ::kill(killed.pid, SIGKILL);
+  wait_for(killed);
+  const std::size_t kept = rows();
+  CHECK((kept >= 3 && kept < batch));
+  REQUIRE(bench.calibrate(study, {"--resume"}) == 0);
+  CHECK(bench.result() == whole);
+  CHECK(text_of(path) == table);
 }
 
 TEST_CASE("mistakes of a calibration are met with place and remedy", "[calibrate]") {
