@@ -810,7 +810,7 @@ function records(keys) end
 ---@field targets { label: string, keys: string|string[], values: number[], scale?: number }[] known values of metrics
 ---@field history? { column: string, label: string, known?: string, t: number[], values: number[] } a known history to draw beside that of the fitted run
 ---@field title? string title of calibration.svg
----@field rel? number smallest step, a share of the range of a param [1e-09 to 0.5; default 0.001]
+---@field rel? number smallest step of a fit and last bracket of a raise (0.02 without rel), shares of the range of a param [1e-09 to 0.5; default 0.001]
 ---@field rounds? integer steps of a stage, at most [1 to 1000; default 20]
 ---@field max_wall? number longest time of a run [s; 0.001 to 1e+07; default 3600]
 

@@ -217,7 +217,8 @@ class Calibrator {
       }
       return out;
     };
-    Bracket bracket(1, 2, std::max(c_.rel, 0.01), 2);  // shares, shifted by one: the width of a bracket is relative
+    // Shares, shifted by one, since the width of a bracket is relative to its larger end, which is 2 at most.
+    Bracket bracket(1, 2, 0.5 * (c_.rel_given ? c_.rel : 0.02), 2);
     double share = 1;
     const std::vector<Answer> ends = answers({1, 2});
     if (!(ends[0].value && *ends[0].value == 1)) {
@@ -239,6 +240,7 @@ class Calibrator {
     FittedStage done;
     done.raised = done.converged = true;
     done.params.push_back({stage.params[0].param, fitted_.at(stage.params[0].param), 0, share <= 1});
+    if (share > 1) done.bracket = {in_range(stage.params[0], bracket.lo() - 1), done.params[0].value};
     done.key_value = got(row, stage.key);
     done.rms = std::sqrt(sum_of_squares(residuals(row)) / double(std::max<std::size_t>(1, residuals(row).size())));
     out_.stages.push_back(done);

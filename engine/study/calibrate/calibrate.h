@@ -1,6 +1,8 @@
 // Calibration: runs of a scene fit some of its params to known values, stage by stage. The runs are those of a sweep, each a process.
 #pragma once
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "engine/study/sweep/sweep.h"
@@ -15,8 +17,10 @@ struct FittedParam {
 
 struct FittedStage {
   std::vector<FittedParam> params;
-  bool raised = false;     // until CalibrationStage::key was below its number; otherwise by least squares
-  double key_value = 0;    // of that key
+  bool raised = false;   // until CalibrationStage::key was below its number; otherwise by least squares
+  double key_value = 0;  // of that key
+  // of the raised param: where the key is not below its number, and where it is; none: it is so from the start
+  std::optional<std::pair<double, double>> bracket;
   double rms = 0;          // root of the mean square of all residuals
   bool converged = false;  // within CalibrationPlan::rounds
 };

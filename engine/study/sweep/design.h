@@ -75,8 +75,9 @@ struct Calibration {
   std::vector<CalibrationStage> stages;  // one after the other; a stage keeps what those before it have found
   std::vector<CalibrationTarget> targets;
   std::optional<KnownHistory> history;
-  double rel = 1e-3;  // of a range: the smallest step
-  int rounds = 20;    // of a stage, at most
+  double rel = 1e-3;       // of a range: the smallest step of a fit
+  int rounds = 20;         // of a stage, at most
+  bool rel_given = false;  // rel is the width of the last bracket of a raise too, which is 0.02 of its range otherwise
 };
 
 // Fragility of the structure from the runs of the study (study/fragility).

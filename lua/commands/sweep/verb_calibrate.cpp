@@ -78,6 +78,7 @@ Json json_of(const study::Sweep& sweep, const study::Calibrated& result) {
     Json one{
         {"kind", stage.raised ? "raise" : "fit"}, {"converged", stage.converged}, {"rms", number(stage.rms)}, {"params", Json::array()}};
     if (stage.raised) one["key"] = calibration.stages[i].key, one["value"] = number(stage.key_value);
+    if (stage.bracket) one["bracket"] = {stage.bracket->first, stage.bracket->second};
     for (const study::FittedParam& param : stage.params)
       one["params"].push_back(
           {{"param", param.param}, {"value", param.value}, {"deviation", number(param.deviation)}, {"at_end_of_range", param.at_end}});
@@ -101,10 +102,11 @@ void print_stage(const study::Sweep& sweep, std::size_t i, const study::FittedSt
     std::string text = fmt::format("  stage {}: {} = {:.5g}", i + 1, column_of(sweep, param.param), param.value);
     if (stage.raised)
       text += fmt::format(", where {} = {:.3g} is below {:g}{}", asked.key, stage.key_value, asked.below,
-                          param.at_end ? " from the start" : "");
+                          stage.bracket ? fmt::format("; not yet at {:.5g}", stage.bracket->first) : " from the start");
     else if (std::isnan(param.deviation)) text += "; its deviation is unknown: there are no more known values than params";
     else if (!std::isfinite(param.deviation)) text += "; it moves no target";
-    else text += fmt::format(" +- {:.2g}{}", param.deviation, param.at_end ? ", at the end of its range: a wider one may fit better" : "");
+    else text += fmt::format(" +- {:.2g}", param.deviation);
+    if (!stage.raised && param.at_end) text += "; at the end of its range: a wider one may fit better";
     say("{}\n", text);
   }
   say("           rms of all residuals {:.3g} % of their scales{}\n", 100 * stage.rms,

@@ -127,6 +127,7 @@ int calibrate(Call& call) {
   arguments.read("title", plan.title);
   arguments.read("max_wall", plan.max_wall);
   arguments.read("rel", calibration.rel);
+  calibration.rel_given = arguments.has("rel");
   arguments.read("rounds", calibration.rounds);
   int number = 0;
   for (Arguments& table : arguments.tables("stages", stage_keys())) calibration.stages.push_back(read_stage(call, table, ++number));
@@ -158,7 +159,8 @@ std::vector<Function> calibration_functions() {
             {"history", "table", "", "a known history to draw beside that of the fitted run", -unbounded, unbounded, false, "", "",
              history_keys()},
             {"title", "string", "", "title of calibration.svg"},
-            {"rel", "number", "", "smallest step, a share of the range of a param", 1e-9, 0.5, false, "", "0.001"},
+            {"rel", "number", "", "smallest step of a fit and last bracket of a raise (0.02 without rel), shares of the range of a param",
+             1e-9, 0.5, false, "", "0.001"},
             {"rounds", "integer", "", "steps of a stage, at most", 1, 1000, false, "", "20"},
             {"max_wall", "number", "s", "longest time of a run", 1e-3, 1e7, false, "", "3600"}}}};
 }

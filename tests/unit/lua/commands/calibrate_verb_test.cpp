@@ -75,6 +75,29 @@ TEST_CASE("a calibration finds the params of known values, stage by stage, and d
   CHECK_THAT(bench.said, Catch::Contains("no more known values than params") && !Catch::Contains("moves no target"));
   REQUIRE(bench.calibrate(one + "'metrics.slip' }, values = { 1 } } } }", {"--force"}) == 0);
   CHECK_THAT(bench.said, Catch::Contains("moves no target"));
+  REQUIRE(bench.calibrate("calibration{ scene = 'tiny.lua', stages = { { fit = { a = { 1, 2 } } } }, targets = { { label = 'y', "
+                          "keys = { 'metrics.y_1' }, values = { 1 } } } }",
+                          {"--force"}) == 0);  // y_1 = a / e
+  CHECK_THAT(bench.said, Catch::Contains("no more known values") && Catch::Contains("at the end of its range: a wider one may fit better"));
+}
+
+TEST_CASE("a raised param is bracketed to the share of its range that rel asks for", "[calibrate]") {
+  Calibration bench;
+  const auto raised = [&](const char* rel) {
+    REQUIRE(bench.calibrate(fmt::format("calibration{{ scene = 'tiny.lua', {} stages = {{ {{ raise = {{ ks = {{ 1, 1000 }} }}, "
+                                        "key = 'metrics.slip', below = .00301 }} }}, "
+                                        "targets = {{ {{ label = 'y', keys = {{ 'metrics.y_1' }}, values = {{ 1 }} }} }} }}",
+                                        rel),
+                            {"--force"}) == 0);
+    const Json bracket = bench.result()["stages"][0]["bracket"];
+    const double lo = bracket[0], hi = bracket[1];
+    CHECK((lo < 1 / .00301 && hi >= 1 / .00301));
+    CHECK(bench.result()["values"]["ks"] == hi);
+    return hi - lo;
+  };
+  CHECK(raised("") <= 20);
+  CHECK_THAT(bench.said, Catch::Contains("not yet at"));
+  CHECK(raised("rel = 1e-5,") <= .01);
 }
 
 TEST_CASE("a calibration says which runs it leaves out, and why", "[calibrate]") {
