@@ -94,7 +94,7 @@ int verb_limit(const LimitCommand& command) {
   const Built built = build(scene);
   for (const auto& warning : built.warnings) tell(stderr, "warning: " + warning);
   LimitLoad load = limit_load(scene, built.model);
-  if (!command.direction.empty()) load.direction = direction_of(command.direction), load.pattern.clear();
+  if (!command.direction.empty()) load = {direction_of(command.direction), {}, false};
   LimitOptions options;
   options.no_tension = command.no_tension, options.associated_only = command.associated, options.facets = command.facets;
   const LimitResult result = limit_analysis(built.model, load, options);

@@ -19,7 +19,7 @@ constexpr double gap = 1e-5;  // of the two multipliers, relative
 // Of the non-associated iteration: dilatant share of mu, gap of a round, change of the multiplier at which it has settled, share of all
 // shear above the friction limit that is tolerated.
 constexpr double dilatant = 0.01, round_gap = 2e-5, settled = 1e-4, bearable = 0.02;
-constexpr int most_rounds = 60;
+constexpr int most_rounds = 60, most_tilts = 30;
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -39,8 +39,8 @@ bool is_bracket(const LimitSolution& s) {
 
 class Analysis {
  public:
-  Analysis(const Model& model, const LimitLoad& load, const LimitOptions& options) : model_(model), options_(options) {
-    result_.problem = limit_problem(model, load, {options.no_tension});
+  Analysis(const Model& model, const LimitLoad& load, const LimitOptions& options, double factor) : model_(model), options_(options) {
+    result_.problem = limit_problem(model, load, {options.no_tension, factor});
     using Solver = LimitOptions::Solver;
     simplex_ = options.facets > 0 || options.solver == Solver::simplex ||
                (options.solver == Solver::automatic && p().plane && p().contacts.size() <= simplex_points);
@@ -48,9 +48,11 @@ class Analysis {
     if (!simplex_) interior_ = std::make_unique<InteriorPoint>(p());
   }
 
-  LimitResult run() {
+  // `standing`: it is known to stand.
+  LimitResult run(bool standing) {
     const auto start = std::chrono::steady_clock::now();
-    if (stand()) {
+    if (standing) result_.stands = true, result_.standing_share = 1;
+    if (standing || stand()) {
       associated();
       if (!result_.unbounded && !options_.associated_only) nonassociated();
     }
@@ -185,10 +187,71 @@ class Analysis {
   LimitSolution last_;
 };
 
+// The lambda at which the answer for forces and bonds times sqrt(1 + lambda^2) is lambda: Illinois' variant of regula falsi. The answer is
+// a concave function of the factor, as the optimum of a convex program in its right-hand side, so that there is one such lambda at most.
+class Tilt {
+ public:
+  Tilt(const Model& model, const LimitLoad& load, const LimitOptions& options) : model_(model), load_(load), options_(options) {}
+
+  LimitResult run() {
+    LimitResult out = Analysis(model_, load_, options_, 1).run(false);
+    const bool alone = model_.force_loads.empty() &&
+                       std::ranges::all_of(out.problem.contacts, [](const ContactPoint& c) { return c.tension <= 0 && c.cohesion <= 0; });
+    if (alone || !out.stands || out.unbounded) return out;
+    LimitOptions associated = options_;
+    associated.associated_only = true;
+    const double seconds = out.seconds;
+    const LimitResult above = agreed(out.associated.middle(), associated);
+    if (above.unbounded || !out.has_nonassociated) {
+      out = above;
+    } else {
+      out = agreed(out.nonassociated.middle(), options_);
+      out.associated = above.associated;
+    }
+    out.seconds = seconds + seconds_;
+    return out;
+  }
+
+ private:
+  LimitResult at(double lambda, const LimitOptions& options) {
+    LimitResult out = Analysis(model_, load_, options, std::hypot(1.0, lambda)).run(true);
+    seconds_ += out.seconds;
+    return out;
+  }
+
+  // `first`: the answer for the factor 1.
+  LimitResult agreed(double first, const LimitOptions& options) {
+    const double near = options.associated_only ? gap : settled;
+    double low = 0, over = first, high = unbounded, under = 0;  // over, under: answer minus lambda, at low and at high
+    double lambda = first;
+    int side = 0;
+    for (int round = 0;; ++round) {
+      LimitResult out = at(lambda, options);
+      const double off = out.last().middle() - lambda;
+      const bool found = std::fabs(off) <= near * (1 + lambda);
+      out.unbounded = out.unbounded || (!found && lambda > options.most);
+      if (found || out.unbounded) return out;
+      if (round == most_tilts) return out.associated.converged = out.nonassociated.converged = false, out;
+      double next = over > off ? lambda + off * (lambda - low) / (over - off) : 2 * lambda + 1;  // beyond it, as the answer is concave
+      if (off > 0 && side > 0) under *= 0.5;
+      if (off <= 0 && side < 0) over *= 0.5;
+      if (off > 0) low = lambda, over = off, side = 1;
+      else high = lambda, under = off, side = -1;
+      if (high < unbounded) next = (high * over - low * under) / (over - under);
+      lambda = next;
+    }
+  }
+
+  const Model& model_;
+  const LimitLoad& load_;
+  const LimitOptions& options_;
+  double seconds_ = 0;
+};
+
 }  // namespace
 
 LimitResult limit_analysis(const Model& model, const LimitLoad& load, const LimitOptions& options) {
-  return Analysis(model, load, options).run();
+  return load.tilt ? Tilt(model, load, options).run() : Analysis(model, load, options, 1).run(false);
 }
 
 }  // namespace erbs::analysis

@@ -6,6 +6,9 @@
 //
 // The associated multiplier is an upper bound of the non-associated one (Drucker 1954; Radenkovic 1961). The latter is not unique in
 // theory; the iteration finds one solution of it.
+//
+// A tilt turns gravity by atan(lambda), while other loads and bonds stay. Divided by the cosine, it is a push by lambda beside these times
+// sqrt(1 + lambda^2): an outer iteration looks for the lambda at which factor and answer agree. Forces are those of the push.
 #pragma once
 #include <string>
 #include <vector>

@@ -85,9 +85,17 @@ std::string kind_of(const LimitResult& r, const Model& m, const LimitMechanism& 
 
 }  // namespace
 
+Vec3 load_direction(const PushSettings& push, const Vec3& gravity) {
+  const Vec3 along = push.direction.normalized();
+  if (!push.tilts() || gravity.norm() == 0) return along;
+  const Vec3 down = gravity.normalized(), level = along - along.dot(down) * down;
+  return level.norm() > 1e-9 ? Vec3(level.normalized()) : Vec3(Vec3::Zero());
+}
+
 LimitLoad limit_load(const Scene& scene, const Model& model) {
   LimitLoad out;
-  out.direction = scene.push.direction.normalized();
+  out.direction = load_direction(scene.push, scene.gravity);
+  out.tilt = scene.push.tilts();
   for (const PatternForce& one : scene.push.pattern) {
     std::vector<int> blocks;
     double mass = 0;

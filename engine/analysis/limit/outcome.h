@@ -9,8 +9,13 @@
 
 namespace erbs::analysis {
 
-// The load that analysis{ kind = "pushover" | "tilt" } of the scene multiplies; without one, an acceleration to x.
+// The load that analysis{ kind = "pushover" | "tilt" } of the scene multiplies; without one, an acceleration to x. That of a tilt lies in
+// the plane normal to gravity.
 LimitLoad limit_load(const Scene& scene, const Model& model);
+
+// Unit vector of the load that a push adds to gravity (m/s2): of a tilt, the part of its direction normal to gravity; zero if there is
+// none.
+Vec3 load_direction(const PushSettings& push, const Vec3& gravity);
 
 // Resultant of a joint's contact forces.
 struct Thrust {

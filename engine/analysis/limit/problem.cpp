@@ -87,14 +87,14 @@ struct Loads {
   std::vector<Twist> constant, push;  // linear: force, angular: moment [nblock]
 };
 
-Loads loads_of(const Model& m, const LimitLoad& load, double g) {
+Loads loads_of(const Model& m, const LimitLoad& load, double g, double factor) {
   Loads out{std::vector<Twist>(z(m.nblock)), std::vector<Twist>(z(m.nblock))};
   for (int b = 0; b < m.nblock; ++b) {
     out.constant[z(b)].linear = weight_mass(m, b) * m.gravity;
     if (load.pattern.empty()) out.push[z(b)].linear = weight_mass(m, b) * g * load.direction;
   }
   for (const auto& one : m.force_loads) {
-    const Vec3 f = value(one.wave, 0) * one.direction;
+    const Vec3 f = factor * value(one.wave, 0) * one.direction;
     (one.moment ? out.constant[z(one.block)].angular : out.constant[z(one.block)].linear) += f;
     if (!one.moment) out.constant[z(one.block)].angular += one.arm.cross(f);
   }
@@ -203,12 +203,12 @@ LimitProblem limit_problem(const Model& m, const LimitLoad& load, const LimitMod
   p.force = mass * g / p.nbody;
   p.length = 0;
   for (const Joint& joint : m.joint) p.length += joint.type->radius / m.njoint;
-  const Loads loads = loads_of(m, load, g);
+  const Loads loads = loads_of(m, load, g, modelling.factor);
   choose_plane(m, load, loads, p);
   for (int j = 0; j < m.njoint; ++j) {
     const Joint& joint = m.joint[z(j)];
     PointLaw law = m.laws[z(joint.type->law)];
-    if (modelling.no_tension) law.ft = law.c = 0;
+    law.ft *= modelling.no_tension ? 0 : modelling.factor, law.c *= modelling.no_tension ? 0 : modelling.factor;
     std::vector<Place2> places = places_of(m, joint, law.ft > 0 || law.c > 0);
     if (p.plane) places = in_plane(p, places, m.rest[z(p.block_of.front())], joint.type->radius);
     for (const Place2& place : places) p.contacts.push_back(contact_point(m, p, j, place, law, load));

@@ -27,6 +27,8 @@ struct BlockLoad {
 struct LimitLoad {
   Vec3 direction = Vec3::UnitX();  // unit length
   std::vector<BlockLoad> pattern;  // empty: proportional to mass
+  // The acceleration comes of turning gravity by atan(lambda) to the side of `direction`, which is normal to it.
+  bool tilt = false;
 };
 
 struct ContactPoint {
@@ -69,6 +71,7 @@ struct LimitSolution {
 
 struct LimitModelling {
   bool no_tension = false;  // drops the bond of mortar
+  double factor = 1;        // of all constant loads but gravity, and of the bond
 };
 
 // Throws Error for a direction of zero length, for a structure that nothing moves in, and for a part that no joint leads to the ground

@@ -19,6 +19,7 @@ Json to_json(const Multiplier& m) {
 }  // namespace
 
 std::optional<double> tilt_angle(const LimitResult& r, const LimitLoad& load, const Model& m) {
+  if (load.tilt && r.stands && !r.unbounded) return std::atan(r.last().middle()) * 180 / pi;
   const bool bonded = std::ranges::any_of(r.problem.contacts, [](const ContactPoint& p) { return p.tension > 0 || p.cohesion > 0; });
   const bool level = m.gravity.norm() > 0 && std::fabs(load.direction.dot(m.gravity)) < 1e-9 * m.gravity.norm();
   if (!r.stands || r.unbounded || bonded || !level || !load.pattern.empty() || !m.force_loads.empty()) return std::nullopt;

@@ -8,8 +8,8 @@
 
 namespace erbs::analysis {
 
-// Tilt (deg) of the base at which the mechanism forms: atan of the multiplier, where only the ratio of horizontal load to weight counts.
-// A bond or a force does not turn with gravity: there a tilt is another load, and there is none.
+// Tilt (deg) of the base at which the mechanism forms: atan of the multiplier of a tilt, and of a push where only the ratio of horizontal
+// load to weight counts. A bond or a force does not turn with gravity: there a tilt is another load than the push, and there is none.
 std::optional<double> tilt_angle(const LimitResult& result, const LimitLoad& load, const Model& model);
 
 Json limit_json(const LimitResult& result, const LimitLoad& load, const Model& model);

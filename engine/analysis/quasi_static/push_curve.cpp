@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/analysis/limit/outcome.h"
 #include "engine/base/count.h"
 
 namespace erbs::analysis {
@@ -30,7 +31,7 @@ CurvePoint curve_point(const Model& m, const State& s, const Relaxation& relaxat
   for (int b = 0; b < m.nblock; ++b)
     if (m.kind[z(b)] == Kind::moving)
       p.most = std::max(p.most, pose.u[z(b)].dot(push.direction)), weight += m.mass[z(b)] * m.gravity.norm();
-  p.base_shear = relaxation.reaction(solver).dot(push.direction);
+  p.base_shear = relaxation.reaction(solver).dot(load_direction(push, m.gravity));
   p.base_shear_over_weight = weight > 0 ? p.base_shear / weight : std::nan("");
   for (int j = 0; j < m.njoint; ++j) {
     const JointChange change = joint_change(m, s.joints, pose, j);

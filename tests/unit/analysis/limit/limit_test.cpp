@@ -211,6 +211,42 @@ TEST_CASE("the load of a scene is the one it is pushed by", "[limit]") {
   CHECK(analysis::limit_analysis(model, load, {}).associated.lower == Approx(2000 * 3 * 9.81 / 3 / 2000).epsilon(1e-5));
 }
 
+TEST_CASE("a tilt turns gravity, while forces and bonds stay as they are", "[limit]") {
+  // A block .4 by .4 by 1 m, 2000 kg/m3: toppling by the angle a where W (sin a / 2 - .2 cos a) = .2 F for a weight F on top.
+  const auto tilted = [](const std::string& load, const std::string& law) {
+    lua::Script script(lua::Script::Options{.quiet = true});
+    const Scene scene = script.load_text(
+        "material { name = 's', density = 2000 }\n"
+        "box { name = 'base', material = 's', fixed = true, size = { 6, 4, .3 }, at = { -3, -2, -.3 } }\n"
+        "box { name = 'b', material = 's', size = { .4, .4, 1 }, at = { -.2, -.2, 0 } }\n"
+        "joint { law = " +
+            law + " }\n" + load,
+        "tilt.lua");
+    const Model model = build(scene).model;
+    const LimitResult r = analysis::limit_analysis(model, analysis::limit_load(scene, model), {});
+    CHECK(r.associated.converged);
+    CHECK(r.nonassociated.middle() == Approx(r.associated.middle()).epsilon(1e-3));
+    return r.associated.middle();
+  };
+  const std::string tilt = "analysis { kind = 'tilt', direction = 'x' }\n", loose = "dry { kn = 1e11, mu = .9 }";
+  const double weight = 0.16 * 2000 * 9.81;
+  const double loaded = std::atan(0.4) + std::asin(0.4 * 5000 / weight / std::hypot(1, 0.4));
+  CHECK(tilted("force { block = 'b', wave = -5000, direction = 'z', point = { 0, 0, 1 } }\n" + tilt, loose) ==
+        Approx(std::tan(loaded)).epsilon(2e-4));  // 1.6045
+  // 300 N at the top to x: W (.5 sin a - .2 cos a) + 300 = 0
+  CHECK(tilted("force { block = 'b', wave = 300, direction = 'x', point = { 0, 0, 1 } }\n" + tilt, loose) ==
+        Approx(std::tan(std::atan(0.4) - std::asin(2 * 300 / weight / std::hypot(1, 0.4)))).epsilon(2e-4));
+  // 1500 N up: the factor lowers the answer
+  CHECK(tilted("force { block = 'b', wave = 1500, direction = 'z', point = { 0, 0, 1 } }\n" + tilt, loose) ==
+        Approx(std::tan(std::atan(0.4) - std::asin(0.4 * 1500 / weight / std::hypot(1, 0.4)))).epsilon(2e-4));
+  // oblique gravity, and a direction that is not level: the angle between the gravity of the scene and the one at the fall
+  CHECK(tilted("gravity { 1, 0, -9.7 }\n" + tilt, loose) == Approx(std::tan(std::atan(0.4) - std::atan(1 / 9.7))).epsilon(2e-4));  // .2851
+  CHECK(tilted("analysis { kind = 'tilt', direction = { 1, 0, -.5 } }", loose) == Approx(0.4).epsilon(2e-4));
+  // a bond that holds it down until it slides in no case: more than without
+  const std::string bond = "mortar { E = 1e10, thickness = .01, ft = 2000, c = 1e6, mu = .7 }";
+  CHECK(tilted(tilt, bond) > tilted("analysis { kind = 'pushover', direction = 'x' }", bond));
+}
+
 TEST_CASE("an iteration that does not settle says so, and gives no number beyond the associated one", "[limit]") {
   // Piers in which thousands of head joints are about to slide. With four rows a round has no solution.
   for (const char* rows : {"2", "4"}) {
