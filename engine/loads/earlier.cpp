@@ -2,6 +2,15 @@
 
 namespace erbs {
 
+double start_time(const Wave& wave) {
+  return std::visit(
+      [](const auto& w) {
+        if constexpr (requires { w.start; }) return w.start;
+        else return w.line.times.front();
+      },
+      wave);
+}
+
 Wave earlier(const Wave& wave, double by) {
   Wave moved = wave;
   std::visit(

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <lua5.4/lua.hpp>
 
+#include "engine/loads/earlier.h"
 #include "engine/loads/record/response_spectrum.h"
 #include "lua/language/api.h"
 
@@ -109,18 +110,21 @@ Keys wave_keys() {
   return keys_of<W>();
 }
 
-// The acceleration of a wave as a line through its points; waves with a formula are sampled forty times a period and at their features.
+// The acceleration of a wave as a line through its points. Waves with a formula are sampled 320 times a period, and as finely at their
+// features, so that chords lie within 2e-5. The line begins and ends with the wave: beyond it there is nothing, and jumps there are exact.
 Polyline line_of(const Wave& wave, double period, const Call& call) {
   if (const auto* record = std::get_if<Record>(&wave)) return record->acceleration;
   if (const auto* table = std::get_if<Table>(&wave)) return table->line;
-  const double end = end_time(wave), step = std::min(period / 40, resolution(wave));
-  if (!(end > 0 && end / step < 1e7))
+  const Wave moved = earlier(wave, start_time(wave));
+  const double end = end_time(moved), step = std::min(period / 40, resolution(moved)) / 8;
+  if (end == 0) return make_polyline({0, 1}, {0, 0});
+  if (!(end / step < 1e7))
     throw Error("spectral_acceleration: this wave has no end, or is too long for the period; give one of finite duration", call.place);
   std::vector<double> times, values;
   const auto n = std::max<std::size_t>(2, static_cast<std::size_t>(std::ceil(end / step)));
   for (std::size_t i = 0; i <= n; ++i) {
     times.push_back(end * static_cast<double>(i) / static_cast<double>(n));
-    values.push_back(value(wave, times.back()));
+    values.push_back(value(moved, i < n ? times.back() : std::nextafter(end, 0.0)));  // at a jump the value before it
   }
   return make_polyline(times, values);
 }

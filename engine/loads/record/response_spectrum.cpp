@@ -34,6 +34,15 @@ void advance(Oscillator& o, const Decay& d, double a0, double slope) {
   o.v = free_v + q;
 }
 
+// Largest displacement of the free vibration from here on, m: where its velocity vanishes for the first time.
+double largest_free(Oscillator o) {
+  const double w = o.omega, z = o.damping, along = w * w * o.u + z * w * o.v;
+  double t = std::atan2(o.v * o.damped, along) / o.damped;
+  if (t < 0) t += pi / o.damped;
+  advance(o, decay_over(o, t), 0, 0);
+  return std::abs(o.u);
+}
+
 constexpr int samples = 40;         // of the response, per period
 constexpr int most = 40 * samples;  // of one segment: by then a damped oscillator only follows the ground
 
@@ -59,9 +68,7 @@ double largest_response(const Polyline& a, double period, double damping_ratio) 
     const double rest = h - count * decay.h;
     if (count == most && rest > 0) go(decay_over(o, rest), a.values[i] + slope * (h - rest), slope);
   }
-  decay = decay_over(o, period / samples);
-  for (int k = 0; k < samples; ++k) go(decay, 0, 0);
-  return peak;
+  return std::max(peak, largest_free(o));
 }
 
 }  // namespace

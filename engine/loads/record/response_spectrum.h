@@ -12,7 +12,7 @@ struct ResponsePoint {
   double acceleration = 0;  // m/s2, pseudo-acceleration: displacement times (2 pi / period)^2
 };
 
-// Peak response over the record and one period beyond, sampled at least 40 times per period (which finds a peak to 0.3 %).
+// Peak response over the record and after it. Within the record it is sampled at least 40 times per period, which finds a peak to 0.3 %.
 std::vector<ResponsePoint> response_spectrum(const Polyline& acceleration, const std::vector<double>& periods, double damping_ratio);
 
 // `count` periods from `low` to `high`, in equal ratios.

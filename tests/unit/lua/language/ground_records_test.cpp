@@ -78,6 +78,26 @@ TEST_CASE("check, log and manifest are told what was done to a record", "[lua][r
   CHECK(files.load("ground_motion{ wave = record{ file = 'x.txt', unit = 'm/s2' } }\n").notes.empty());
 }
 
+TEST_CASE("a wave with jumps has its exact spectrum, whenever it starts", "[lua][record]") {
+  const Files files;
+  const Scene pulses = files.load(
+      "for i, d in ipairs{ .001, .01, .1 } do for j, start in ipairs{ -1, 0, .0137, 20 } do\n"
+      "  local wave = pulse{ amplitude = 2, duration = d, start = start }\n"
+      "  local exact = 4 * math.sin(math.pi * d)\n"  // 2 a sin(pi d / T) for d < T / 2
+      "  param('p' .. i .. j, spectral_acceleration{ wave = wave, period = 1, damping = 0 } / exact)\n"
+      "end end\n");
+  CHECK(pulses.params.size() == 12);
+  for (const auto& ratio : pulses.params) CHECK(ratio.value == Approx(1).epsilon(1e-9));
+  // 2 cos(4 pi t) for half a second, by a Runge-Kutta of 50,000 steps
+  const Scene cosines = files.load(
+      "for j, start in ipairs{ 0, 2.013 } do for k, T in ipairs{ .5, 2 } do\n"
+      "  local wave = full_cosine{ amplitude = 2, frequency = 2, start = start }\n"
+      "  param('c' .. j .. k, spectral_acceleration{ wave = wave, period = T, damping = .05 })\n"
+      "end end\n");
+  for (const std::size_t i : {0, 2}) CHECK(cosines.params[i].value == Approx(5.004).epsilon(3e-4));
+  for (const std::size_t i : {1, 3}) CHECK(cosines.params[i].value == Approx(0.2217).epsilon(3e-4));
+}
+
 TEST_CASE("a long step doubles in an undamped oscillator", "[lua][record]") {
   const Files files;
   const Scene scene = files.load(
