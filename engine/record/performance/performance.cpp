@@ -11,7 +11,8 @@
 namespace erbs {
 namespace {
 
-constexpr int most_rounds = 200;
+// Rounds of halved steps, and of these and bisection.
+constexpr int most_halved = 100, most_rounds = 200;
 constexpr double same_displacement = 1e-6;  // relative, of two rounds
 
 struct MassNode {
@@ -57,22 +58,31 @@ void refuse_leap(const std::vector<double>& X, double x) {
                             1e3 * x, 1e3 * X[i - 1], 1e3 * X[i]));
 }
 
+// Draws bilinear curves until the target is the end of the curve, where that is asked for. Halved steps are tried first: a peak between
+// both would make whole ones jump to and fro. They do so themselves where the target falls steeply; then bisection finds the end between
+// two that lie on either side. There is one: the target, kept within the curve, is a continuous function of the end.
+void draw_bilinear(PerformancePoint& p, const std::vector<double>& D, double end, const PerformanceDemand& demand) {
+  double low = D[1], high = D.back();  // the target is beyond the end; before it
+  for (p.rounds = 1;; ++p.rounds) {
+    p.bilinear = bilinear_curve(D, p.A, end);
+    p.oscillator = target_displacement(p.bilinear, demand.spectrum);
+    const double next = std::clamp(p.oscillator.target, D[1], D.back());
+    if (!demand.iterate || std::fabs(next - end) <= same_displacement * end) return;
+    if (p.rounds == most_rounds)
+      throw Error(fmt::format("the target jumps from one side of the curve's end to the other at {:.4g} mm; leave iterate out", 1e3 * end));
+    (next > end ? low : high) = end;
+    if (p.rounds == most_halved && low >= high) low = D[1], high = D.back();
+    end = 0.5 * (p.rounds < most_halved ? end + next : low + high);
+  }
+}
+
 // `mass`: of the oscillator; `divisor`: V_b over its acceleration (both kg).
 PerformancePoint point_of(const BaseShearCurve& curve, const std::vector<double>& D, const Participation& nodes, double mass,
                           double divisor, const PerformanceDemand& demand) {
   PerformancePoint p;
   p.mass = mass;
   for (const double shear : curve.shear) p.A.push_back(shear / divisor);
-  double end = D[std::size_t(curve.peak)];
-  for (p.rounds = 1;; ++p.rounds) {
-    p.bilinear = bilinear_curve(D, p.A, end);
-    p.oscillator = target_displacement(p.bilinear, demand.spectrum);
-    const double next = std::clamp(p.oscillator.target, D[1], D.back());
-    if (!demand.iterate || std::fabs(next - end) <= same_displacement * end) break;
-    if (p.rounds == most_rounds)
-      throw Error(fmt::format("the bilinear curve and its target do not agree after {} rounds; leave iterate out", most_rounds));
-    end = 0.5 * (end + next);  // half the way: a peak between both would make whole steps jump to and fro
-  }
+  draw_bilinear(p, D, D[std::size_t(curve.peak)], demand);
   p.displacement = nodes.gamma * p.oscillator.target;
   p.top = nodes.phi_top * p.displacement;
   p.within_curve = p.oscillator.target <= D.back() * (1 + 1e-9);

@@ -73,7 +73,7 @@ struct PerformancePoint {
   std::vector<double> A;  // m/s2, of the oscillator                  [states]
   BilinearCurve bilinear;
   TargetDisplacement oscillator;
-  int rounds = 1;                                 // bilinear curves that were drawn
+  int rounds = 1;                                 // bilinear curves that were drawn, by halved steps, beyond a hundred by bisection
   bool within_curve = false;                      // else the demand exceeds the capacity
   double displacement = 0, top = 0;               // m, of the monitored point and of the highest mass node
   std::optional<double> multiplier, shear, time;  // [-], N, s: on the curve at the target, between two states

@@ -268,6 +268,24 @@ TEST_CASE("iteration draws the bilinear curve up to the target", "[performance]"
   CHECK(repeated.n2.rounds > 2);
 }
 
+TEST_CASE("iteration finds the end where the target falls so steeply that steps jump over it", "[performance]") {
+  // A = 2 tanh(u / u0) m/s2, at first with the period .03 s: just beyond yield, the target falls 30 times as fast as the end grows.
+  const double u0 = 2 * std::pow(0.03 / (2 * pi), 2);
+  Structure s = structure({1000}, {1}, 1, 1, 20 * u0);
+  BaseShearCurve curve;
+  for (int i = 0; i <= 200; ++i) {
+    curve.displacement.push_back(0.1 * u0 * i), curve.shear.push_back(2000 * std::tanh(0.1 * i));
+    curve.multiplier.push_back(1e-5 * curve.shear.back()), curve.time.push_back(0.04 * i);
+  }
+  curve.peak = 200;
+  PerformanceDemand demand = demand_of(1);
+  demand.iterate = true;
+  const PerformancePoint p = performance_of(curve, s.shape, demand).n2;
+  CHECK(p.oscillator.target == Approx(4.815183e-5).epsilon(2e-6));  // by bisection beside
+  CHECK(p.bilinear.end == Approx(p.oscillator.target).epsilon(2e-6));
+  CHECK(p.rounds > 100);
+}
+
 TEST_CASE("a curve without load has no performance point", "[performance][bad_input]") {
   Structure s = structure({1000}, {1}, 1000, 0.01, 0.03);
   s.curve.peak = 0;
