@@ -51,11 +51,11 @@ double value_at(const std::vector<double>& X, const std::vector<double>& Y, doub
 }
 
 // A push by displacement may leap over what a structure does as it weakens (`MachinePath::leaps`): no line across is a state.
-void refuse_leap(const std::vector<double>& X, double x) {
+void refuse_leap(const std::vector<double>& X, double x, const char* what) {
   const std::size_t i = std::size_t(std::upper_bound(X.begin() + 1, X.end() - 1, x) - X.begin());
   if (i > 1 && X[i] - X[i - 1] > x)
-    throw Error(fmt::format("its target of {:.3g} mm lies between states at {:.3g} and {:.3g} mm, far from either; push with shorter steps",
-                            1e3 * x, 1e3 * X[i - 1], 1e3 * X[i]));
+    throw Error(fmt::format("its {} of {:.3g} mm lies between states at {:.3g} and {:.3g} mm, far from either; push with shorter steps",
+                            what, 1e3 * x, 1e3 * X[i - 1], 1e3 * X[i]));
 }
 
 // Draws bilinear curves until the target is the end of the curve, where that is asked for. Halved steps are tried first: a peak between
@@ -83,6 +83,7 @@ PerformancePoint point_of(const BaseShearCurve& curve, const std::vector<double>
   p.mass = mass;
   for (const double shear : curve.shear) p.A.push_back(shear / divisor);
   draw_bilinear(p, D, D[std::size_t(curve.peak)], demand);
+  refuse_leap(curve.displacement, nodes.gamma * p.bilinear.yield_displacement, "yield displacement");  // it decides the period
   p.displacement = nodes.gamma * p.oscillator.target;
   p.top = nodes.phi_top * p.displacement;
   p.within_curve = p.oscillator.target <= D.back() * (1 + 1e-9);
@@ -90,7 +91,7 @@ PerformancePoint point_of(const BaseShearCurve& curve, const std::vector<double>
   const double u = std::min(p.displacement, curve.displacement.back());
   p.multiplier = value_at(curve.displacement, curve.multiplier, u);
   p.shear = value_at(curve.displacement, curve.shear, u);
-  refuse_leap(curve.displacement, u);
+  refuse_leap(curve.displacement, u, "target");
   p.time = value_at(curve.displacement, curve.time, u);
   std::size_t nearest = 0;
   for (std::size_t i = 1; i < curve.displacement.size(); ++i)

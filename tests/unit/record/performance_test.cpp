@@ -251,6 +251,24 @@ TEST_CASE("a target where a push has leapt over all states is refused", "[perfor
   CHECK_THROWS_WITH(performance_of(s.curve, s.shape, demand_of(2)), Catch::Contains("far from either; push with shorter steps"));
 }
 
+TEST_CASE("a yield displacement between two states far apart is refused", "[performance]") {
+  // A block on a bed slides at .3 g: the springs of the bed yield at a micrometre, the next state is a millimetre away.
+  Structure s = structure({1000}, {1}, 1, 1, 0.2);
+  const auto slides = [&](double first) {
+    BaseShearCurve curve;
+    for (double u = 0; u < 0.9e-6; u += 0.25e-6) curve.displacement.push_back(u);
+    for (double u = first; u < 0.02; u *= 1.5) curve.displacement.push_back(u);
+    for (const double u : curve.displacement) {
+      curve.shear.push_back(1000 * 0.3 * 9.81 * std::min(1.0, u / 1e-6));
+      curve.multiplier.push_back(curve.shear.back() / 9810), curve.time.push_back(u);
+    }
+    curve.peak = int(curve.displacement.size()) - 1;
+    return performance_of(curve, s.shape, demand_of(4)).n2;
+  };
+  CHECK_THROWS_WITH(slides(1e-3), Catch::Contains("yield displacement") && Catch::Contains("push with shorter steps"));
+  CHECK(slides(1e-6).bilinear.yield_displacement == Approx(1e-6).epsilon(1e-3));
+}
+
 TEST_CASE("iteration draws the bilinear curve up to the target", "[performance]") {
   // Stiff at first, then soft up to a peak far away: the curve up to the peak would give too long a period.
   Structure s = structure({1000}, {1}, 1, 1, 0.2);
