@@ -63,8 +63,10 @@ void add_messages(std::vector<std::string>& mistakes, const std::string& message
   }
 }
 
+// Such as tension, b.csv and -x.
 bool is_bare_word(const std::string& text) {
-  return !text.empty() && std::isalpha(static_cast<unsigned char>(text[0])) != 0 &&
+  const std::size_t first = text.starts_with('-') ? 1 : 0;
+  return text.size() > first && std::isalpha(static_cast<unsigned char>(text[first])) != 0 &&
          std::ranges::all_of(text, [](unsigned char c) { return std::isalnum(c) != 0 || std::strchr("_.-+", c) != nullptr; });
 }
 

@@ -19,7 +19,7 @@ namespace {
 // A block that flies for two milliseconds. trouble: 1 error, 2 NaN, 3 no memory, 4 no end
 const std::string troubled_block = R"(
 local h, trouble = param("h", 1, "height [m]"), param("trouble", 0)
-local motion = param("motion", "a.csv")
+local motion, side = param("motion", "a.csv"), param("side", "x")
 material{ name = "stone", density = 2000 }
 box{ name = "b", size = { .3, .3, h }, at = { 0, 0, 5 }, free = true, material = "stone" }
 if trouble == 1 then error("no scene for this value") end
@@ -371,8 +371,11 @@ TEST_CASE("a param that is a word takes it without quotes, and one that is a num
   study.write("b.csv", "0,0\n0.01,1\n");
   const auto run = [&](const std::string& option) { return study.erbs({"check", (study.folder / "tiny.lua").string(), "-D", option}); };
   for (const char* option : {"motion=b.csv", "motion='b.csv'", "motion=\"b.csv\""}) CHECK(run(option) == 0);
+  CHECK(run("side=-x") == 0);
   CHECK(run("h=tall") == 2);
   CHECK_THAT(study.said, Catch::Contains("-D h=tall") && Catch::Contains("unknown name"));
+  CHECK(run("h=-tall") == 2);
+  CHECK_THAT(study.said, Catch::Contains("-D h=-tall") && Catch::Contains("unknown name"));
   CHECK(run("motion=2") == 2);
   CHECK_THAT(study.said, Catch::Contains("takes a word"));
 }
