@@ -1,5 +1,6 @@
 #include "engine/study/sweep/one_run.h"
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -30,6 +31,14 @@ bool says(const std::string& log, const char* what) {
   return false;
 }
 
+// What programs say that find no room under a limit of memory: ours, the system at an allocation or a new thread, the loader of libraries
+// (those of the program that waits here: they are there).
+bool found_no_memory(const std::string& log) {
+  constexpr const char* sayings[] = {"not enough memory", "MiB of memory", "Cannot allocate memory", "Resource temporarily unavailable",
+                                     "while loading shared libraries"};
+  return std::ranges::any_of(sayings, [&](const char* saying) { return says(log, saying); });
+}
+
 std::string bytes_text(double bytes) { return fmt::format("{:.3g} MB", 1e-6 * bytes); }
 
 // The verdict at the key; none, with its reason, if the run gives none.
@@ -53,9 +62,7 @@ void judge_end(const Sweep& sweep, const std::string& scene, const Finished& fin
   if (finished.overdue) {
     row.status = "timeout";
     row.reason = fmt::format("took longer than max_wall = {:g} s and was ended", sweep.plan.max_wall);
-  } else if (cap > 0 && finished.code != 0 &&
-             (says(log, "not enough memory") || says(log, "MiB of memory") || says(log, "Cannot allocate memory") ||
-              says(log, "while loading shared libraries"))) {  // those of the program that waits here: they are there, and find no room
+  } else if (cap > 0 && finished.code != 0 && found_no_memory(log)) {
     row.status = "memory";
     row.reason = fmt::format("needs more than memory = {} and was ended at {}", bytes_text(cap), bytes_text(finished.memory));
   } else if (finished.code > 128) {

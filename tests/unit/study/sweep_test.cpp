@@ -15,6 +15,7 @@
 #include "engine/study/pool.h"
 #include "engine/study/sweep/claims.h"
 #include "engine/study/sweep/design.h"
+#include "engine/study/sweep/one_run.h"
 #include "engine/study/sweep/ranks.h"
 #include "engine/study/sweep/shared_table.h"
 #include "tests/support/folder.h"
@@ -285,6 +286,23 @@ TEST_CASE("a run beyond its memory gets no more, and its peak is known", "[sweep
   CHECK(free.memory > 100e6);
   CHECK(capped.code != 0);
   CHECK(capped.memory < 100e6);
+}
+
+TEST_CASE("a run that finds no room under its limit has the status memory", "[sweep]") {
+  const test::Folder own;
+  std::filesystem::create_directories(own.file("runs"));
+  Sweep sweep;
+  sweep.directory = own.path.string();
+  const auto status = [&](const std::string& said, double memory) {
+    std::ofstream(own.file("runs/000000.log")) << said << "\n";
+    sweep.plan.memory = memory;
+    return read_run(sweep, {}, 0, "000000", {.id = 0, .code = 1}).status;
+  };
+  for (const char* said : {"erbs: Resource temporarily unavailable", "a: Cannot allocate memory", "error: not enough memory"}) {
+    CHECK(status(said, 50e6) == "memory");
+    CHECK(status(said, 0) != "memory");
+  }
+  CHECK(status("a mistake", 50e6) != "memory");
 }
 
 TEST_CASE("ranks are those of the launcher's environment", "[sweep]") {
