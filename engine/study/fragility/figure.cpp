@@ -185,7 +185,7 @@ void draw_curves(const Sweep& sweep, const std::vector<Group>& groups, const std
 }  // namespace
 
 void draw_fragility(const Sweep& sweep, const std::vector<Group>& groups, const std::vector<Fragility>& found) {
-  if (groups.empty()) return;
+  if (std::all_of(groups.begin(), groups.end(), [](const Group& group) { return group.cases.empty(); })) return;  // the words say why
   for (const char* ending : {"svg", "png"}) {
     draw_probability(sweep, groups, found, ending);
     if (!sweep.plan.fragility->damage.empty()) draw_curves(sweep, groups, ending);

@@ -19,12 +19,18 @@ std::string to_text(FitEnd end) {
   return names[std::size_t(end)];
 }
 
-Fragility fragility_of(const Group& group, const std::string& method, const ShownIntensity& im) {
+Fragility fragility_of(const Group& group, const std::string& method, const FragilityPlan& plan, const ShownIntensity& im) {
   Fragility out{group.name, method, fit_fragility(method == "runs" ? group.single_runs() : group.capacities()), {}};
   out.words = words(out.fit, im.unit, im.factor);
   const auto say = [&](const std::string& what) { out.words += (out.words.empty() ? "" : "; ") + what; };
-  if (group.left_out > 0) say(fmt::format("{} runs without an answer are left out", group.left_out));
-  if (group.unshaken > 0) say(fmt::format("{} runs at intensity 0 have no part in the fit, which is 0 there", group.unshaken));
+  const auto leave_out = [&](int n, const std::string& why) {
+    if (n > 0) say(fmt::format("{} run{} left out: {}", n, n == 1 ? "" : "s", why));
+  };
+  leave_out(group.left_out, "no answer, see the reasons in runs.csv");
+  leave_out(group.unshaken, "at intensity 0, where any fit is 0");
+  leave_out(group.negative, fmt::format("{} is below 0, and an intensity lies above", plan.im));
+  leave_out(group.wordy, fmt::format("{} is no number; take an im that is one", plan.im));
+  leave_out(group.unclear, fmt::format("{} is neither 1 nor 0; give above, the number from which on it is a collapse", plan.collapse));
   if (method == "runs" && group.incremental()) say("runs of one case are not independent, so that the bands are too narrow");
   if (method == "capacities" && out.fit.end == FitEnd::fitted && out.fit.observations < 20)
     say(fmt::format("{} cases are few: bands of 95 % hold some 91 %", out.fit.observations));
@@ -109,8 +115,10 @@ std::vector<Fragility> write_fragility(const Sweep& sweep, const std::vector<Gro
   std::vector<Fragility> out;
   std::vector<std::vector<std::string>> rows;
   for (const Group& group : groups) {
-    if (group.incremental()) out.push_back(fragility_of(group, "capacities", shown));
-    if (!sweep.plan.bisect) out.push_back(fragility_of(group, "runs", shown));  // a bisection chooses its runs by their answers
+    const FragilityPlan& plan = *sweep.plan.fragility;
+    const bool bisected = sweep.plan.bisect.has_value();  // it chooses its runs by their answers
+    if (group.incremental() || bisected) out.push_back(fragility_of(group, "capacities", plan, shown));
+    if (!bisected) out.push_back(fragility_of(group, "runs", plan, shown));
   }
   for (const Fragility& one : out) rows.push_back(row_of(one));
   write_table(sweep.directory + "/fragility.csv",

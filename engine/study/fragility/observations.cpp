@@ -70,6 +70,16 @@ double damage_at(const Case& one, std::size_t k, double im) {
   return std::nan("");
 }
 
+// Which count of the group a run belongs to that has no part in a fit; none if it has one.
+int* reason_to_leave(Group& group, bool completed, double im, double collapse, bool above) {
+  if (im == 0) return &group.unshaken;
+  if (!completed || std::isnan(collapse)) return &group.left_out;
+  if (std::isnan(im)) return &group.wordy;
+  if (im < 0) return &group.negative;
+  if (!above && collapse != 0 && collapse != 1) return &group.unclear;
+  return nullptr;
+}
+
 }  // namespace
 
 Interval Case::capacity() const {
@@ -105,7 +115,7 @@ std::vector<Group> read_groups(const Sweep& sweep) {
   const FragilityPlan& wanted = *sweep.plan.fragility;
   const Columns at = columns_of(sweep);
   std::map<std::string, std::map<std::string, std::map<double, Run>>> sorted;  // by group, case, intensity
-  std::map<std::string, int> left_out, unshaken;
+  std::map<std::string, Group> counts;
   std::ifstream file(sweep.directory + "/" + runs_file);
   std::string line;
   std::getline(file, line);
@@ -118,8 +128,8 @@ std::vector<Group> read_groups(const Sweep& sweep) {
     if (wanted.along.empty() && !sweep.plan.bisect) name += (name.empty() ? "run " : ", run ") + cells.front();
     const double im = number_of(cells[at.im]), collapse = number_of(cells[at.collapse]);
     auto& cases = sorted[group];
-    if (cells[at.status] != "completed" || !(im > 0) || std::isnan(collapse)) {
-      ++(im == 0 ? unshaken : left_out)[group];
+    if (int* const reason = reason_to_leave(counts[group], cells[at.status] == "completed", im, collapse, wanted.above.has_value())) {
+      ++*reason;
       continue;
     }
     Run run{im, wanted.above ? collapse > *wanted.above : collapse != 0, {}};
@@ -130,7 +140,8 @@ std::vector<Group> read_groups(const Sweep& sweep) {
   }
   std::vector<Group> out;
   for (auto& [name, cases] : sorted) {
-    Group group{name, {}, left_out[name], unshaken[name]};
+    Group group = counts[name];
+    group.name = name;
     for (auto& [of_case, runs] : cases) {
       group.cases.push_back({of_case, {}});
       for (auto& [im, run] : runs) group.cases.back().runs.push_back(std::move(run));

@@ -51,6 +51,13 @@ void read_fragility(Arguments& table, study::Plan& plan) {
   if (!bisected && !is_varied(out.im) && !out.im.empty() && out.im.find('.') == std::string::npos)
     table.mistake(fmt::format("im = \"{}\" is no param of vary or bisect, and no dotted key of metrics.json{}", out.im,
                               did_you_mean(out.im, varied)));
+  for (const study::Axis& axis : plan.axes)
+    for (std::size_t k = 0; k < axis.params.size(); ++k)
+      if (axis.params[k] == out.im && !axis.rows.empty() && std::holds_alternative<std::string>(axis.rows.front()[k]))
+        table.mistake(
+            fmt::format("im = \"{}\" takes words, such as \"{}\", and an intensity is a number; name another param, or a key of "
+                        "metrics.json such as \"metrics.sa_t1\"",
+                        out.im, std::get<std::string>(axis.rows.front()[k])));
   if (!out.along.empty()) need_param("along", out.along);
   for (const std::string& name : out.by) need_param("by", name);
   if (out.along.empty() && is_varied(out.im)) out.along = out.im;

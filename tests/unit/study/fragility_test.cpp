@@ -196,7 +196,7 @@ TEST_CASE("the tables of a study depend on its rows, not on their order", "[frag
     CHECK(found[0].fit.observations == 3);
     CHECK(found[0].fit.collapsed == 2);
     CHECK(found[1].fit.observations == 9);
-    CHECK_THAT(found[0].words, Catch::Contains("1 runs without an answer"));
+    CHECK_THAT(found[0].words, Catch::Contains("1 run left out: no answer"));
     std::string all;
     for (const char* file : {"fragility.csv", "stripes.csv", "fractiles.csv"}) {
       std::ifstream in(sweep.directory + "/" + file);

@@ -87,7 +87,32 @@ TEST_CASE("runs at intensity zero are no runs without an answer", "[sweep][fragi
   FragilityStudy study;
   REQUIRE(study.sweep(R"(study{ scene = "tiny.lua", keep = "none", vary = { grid{ seed = { 1, 6, 12 }, pga = { 0, 1, 1.9 } } },
     fragility = { im = "pga", collapse = "metrics.fell" } })") == 0);
-  CHECK_THAT(study.tables(), Catch::Contains("3 runs at intensity 0 have no part in the fit") && !Catch::Contains("without an answer"));
+  CHECK_THAT(study.tables(), Catch::Contains("3 runs left out: at intensity 0") && !Catch::Contains("no answer"));
+}
+
+TEST_CASE("a run whose intensity or collapse is none is left out by its reason", "[sweep][fragility]") {
+  FragilityStudy study;
+  const auto words = [&](const std::string& pga, const std::string& fragility) {
+    REQUIRE(study.sweep("study{ scene = 'tiny.lua', keep = 'none', vary = { grid{ seed = { 1, 6, 12 }, pga = { " + pga +
+                            " } } }, fragility = { " + fragility + " } }",
+                        {"--force"}) == 0);
+    return text_of(study.out() + "/fragility.csv");
+  };
+  CHECK_THAT(words("-1, 1, 1.9", "im = 'pga', collapse = 'metrics.fell'"),
+             Catch::Contains("3 runs left out: pga is below 0") && !Catch::Contains("no answer"));
+  CHECK_THAT(words("1, 1.9", "im = 'pga', collapse = 'metrics.drift'"),
+             Catch::Contains("6 runs left out: metrics.drift is neither 1 nor 0") && Catch::Contains("above"));
+  CHECK_THAT(study.said, !Catch::Contains("could not be drawn"));  // nothing is left to draw
+  CHECK_THAT(words("1, 1.9", "im = 'pga', collapse = 'metrics.drift', above = .1"), !Catch::Contains("left out"));
+}
+
+TEST_CASE("cases of a bisection with one answered end each have a row, and words", "[sweep][fragility]") {
+  FragilityStudy study;
+  study.write("tiny.lua", fragile_block + "if pga < 1 then error('no answer down here') end\n");
+  study.sweep(R"(study{ scene = "tiny.lua", keep = "none", vary = { grid{ seed = { 1, 2 } } },
+    bisect = { param = "pga", lo = .1, hi = 2.2, key = "metrics.fell" }, fragility = { im = "pga" } })");
+  CHECK_THAT(study.tables(),
+             Catch::Contains("capacities") && Catch::Contains("all of 2 collapse") && Catch::Contains("2 runs left out: no answer"));
 }
 
 TEST_CASE("perturbations give each run its own noise, the same in every study", "[sweep][fragility]") {
@@ -126,4 +151,8 @@ TEST_CASE("mistakes in a fragility name the key and the remedy", "[sweep][fragil
   says("im = 'pga', collapse = 'metrics.fell', by = { 'seed' }", "by = \"seed\" is no param of vary");
   says("im = 'pga', collapse = 'metrics.fell', along = 'pgg'", "along = \"pgg\"");
   says("im = 'pga', collapse = 'metrics.fell', demage = {}", "demage");
+  CHECK(study.sweep(
+            "study{ scene = 'tiny.lua', vary = { grid{ seed = { 'a', 'b' } } }, fragility = { im = 'seed', collapse = 'metrics.fell' } }",
+            {"--force"}) == 2);
+  CHECK_THAT(study.said, Catch::Contains("study.lua:1") && Catch::Contains("im = \"seed\" takes words"));
 }
