@@ -16,8 +16,9 @@ void SweepPrinter::show(const study::Sweep::Progress& now) {
   const auto time = std::chrono::steady_clock::now();
   if (now.end || (!live_ && time - told_ < std::chrono::seconds(10))) return;
   told_ = time;
-  const std::string made = bisects_ ? fmt::format(" ({} runs)", now.runs) : "";
-  const std::string text = fmt::format("{} of {} {}{}, {} failed{}", now.done, now.points, bisects_ ? "points" : "runs", made, now.failed,
+  const std::string made = bisects_ ? fmt::format(" ({} run{})", now.runs, now.runs == 1 ? "" : "s") : "";
+  const std::string text = fmt::format("{} of {} {}{}, {} failed{}", now.done, now.points,
+                                       fmt::format("{}{}", bisects_ ? "point" : "run", now.points == 1 ? "" : "s"), made, now.failed,
                                        now.left >= 0 ? ", about " + duration_text(now.left) + " left" : "");
   if (live_) fmt::print(stderr, "\r\033[K{}", text);
   else fmt::print(stderr, "{}\n", text);

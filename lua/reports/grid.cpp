@@ -252,7 +252,8 @@ std::string summary_of(const Grid& grid) {
   const auto failed = std::count_if(grid.rows.begin(), grid.rows.end(), [](const Worst& w) { return !w.failed.empty(); });
   std::string text = fmt::format("{} runs, {} invariants: {} hold on the whole grid, {} do not", grid.runs, grid.rows.size(),
                                  grid.rows.size() - static_cast<size_t>(failed), failed);
-  if (!grid.refused.empty()) text += fmt::format("; {} runs refused by a limit of the scene", grid.refused.size());
+  if (!grid.refused.empty())
+    text += fmt::format("; {} run{} refused by a limit of the scene", grid.refused.size(), grid.refused.size() == 1 ? "" : "s");
   if (grid.missing > 0) text += fmt::format("; {} runs are still missing", grid.missing);
   return text;
 }

@@ -66,11 +66,11 @@ std::string capacity_text(const PushSettings& push, const Json& metrics) {
           : push.control == "displacement"             ? "; the curve still rises at its end"
                                                        : "; no collapse up to there";
   const Json& shear = (*capacity)["base_shear_over_weight"];
-  text +=
-      fmt::format("\nat the peak: displacement {:.4g} mm, base shear {}, {:.0f} joints opened, {:.0f} slid", 1e3 * number("displacement_m"),
-                  shear.is_number() ? fmt::format("{:.4g} of the weight", shear.get<double>())
-                                    : fmt::format("{:.4g} kN", 1e-3 * number("base_shear_N")),
-                  number("joints_opened"), number("joints_slid"));
+  text += fmt::format("\nat the peak: displacement {:.4g} mm, base shear {}, {:.0f} joint{} opened, {:.0f} slid",
+                      1e3 * number("displacement_m"),
+                      shear.is_number() ? fmt::format("{:.4g} of the weight", shear.get<double>())
+                                        : fmt::format("{:.4g} kN", 1e-3 * number("base_shear_N")),
+                      number("joints_opened"), number("joints_opened") == 1 ? "" : "s", number("joints_slid"));
   if (const Json& limit = (*capacity)["limit"]; limit.is_object()) {
     const auto bracket = [](const Json& b) {
       return !b["stands"].get<bool>() ? std::string("does not stand")

@@ -145,13 +145,15 @@ int verb_calibrate(const CalibrateCommand& command) {
   sweep.interrupted = &interrupted;
   const bool live = isatty(STDERR_FILENO) != 0;
   if (!quiet && live)
-    sweep.progress = [](const study::Sweep::Progress& now) { fmt::print(stderr, "\r\033[K{} runs, {} failed", now.runs, now.failed); };
+    sweep.progress = [](const study::Sweep::Progress& now) {
+      fmt::print(stderr, "\r\033[K{} run{}, {} failed", now.runs, now.runs == 1 ? "" : "s", now.failed);
+    };
   const auto begin = std::chrono::steady_clock::now();
   const study::Calibrated result = calibrate(sweep, command.resume);
   const double wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   if (!quiet && live) fmt::print(stderr, "\r\033[K");
   if (result.interrupted) {
-    tell(stderr, fmt::format("interrupted after {} runs; continue with --resume", result.runs));
+    tell(stderr, fmt::format("interrupted after {} run{}; continue with --resume", result.runs, result.runs == 1 ? "" : "s"));
     return exit_interrupted;
   }
   write_json(sweep.directory + "/" + study::calibration_file, json_of(sweep, result));

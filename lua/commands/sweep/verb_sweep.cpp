@@ -182,8 +182,8 @@ int finish(const SweepStudy& study, const study::Swept& swept, const study::Rank
   if (!quiet && swept.inherited > 0)
     tell(stderr, fmt::format("{} points of processes that had died were taken up and finished", swept.inherited));
   if (!quiet) {
-    say("{}: {} of {} points done, {} failed; {} runs here in {}\n{}\n", study.name, swept.done, swept.points, swept.failed, swept.runs,
-        duration_text(wall), results);
+    say("{}: {} of {} point{} done, {} failed; {} run{} here in {}\n{}\n", study.name, swept.done, swept.points,
+        swept.points == 1 ? "" : "s", swept.failed, swept.runs, swept.runs == 1 ? "" : "s", duration_text(wall), results);
     if (!swept.complete()) say("other processes work on the rest; --resume collects it\n");
   }
   return swept.failed > 0 ? exit_numbers : exit_ok;

@@ -119,7 +119,7 @@ analysis{ energy_gate = 1 }
   CHECK(bench.erbs({"test", scene, "--grid", "-o", bench.out()}) == 4);
   INFO(bench.said);
   CHECK(contains(bench.said, "7 runs, "));  // three steps, heights of 2 and 7, a seed, a combination
-  CHECK(contains(bench.said, "1 runs refused"));
+  CHECK(contains(bench.said, "1 run refused"));
   CHECK(contains(bench.said, "refused: drop at height 11: "));
   CHECK(contains(bench.said, ":11: too high"));
   CHECK(contains(bench.said, "drop metrics.size fails at height 7"));
