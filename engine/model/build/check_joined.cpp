@@ -48,10 +48,11 @@ void check_rules(const Scene& scene, const Interfaces& found, std::vector<std::s
   for (size_t r = 0; r < faces.size(); ++r) {
     const JointRule& rule = scene.joint_rules[r];
     if (faces[r] > 0 || rule.none || !has_group(scene, rule.group_a) || !has_group(scene, rule.group_b)) continue;
+    const auto named = [](const std::string& group) { return group.empty() ? "any block" : "\"" + group + "\""; };
     warnings.push_back(
-        fmt::format("{}: this joint rule joins nothing: between \"{}\" and \"{}\" no faces lie at most {:g} mm apart, or later "
+        fmt::format("{}: this joint rule joins nothing: between {} and {} no faces lie at most {:g} mm apart, or later "
                     "rules take them; look at between, thickness and tolerance",
-                    rule.place.text(), rule.group_a, rule.group_b, 1e3 * (rule.thickness + rule.tolerance)));
+                    rule.place.text(), named(rule.group_a), named(rule.group_b), 1e3 * (rule.thickness + rule.tolerance)));
   }
 }
 
