@@ -85,7 +85,7 @@ Show prepare_show(const MotionScene& scene, const Run& run, Stage stage, std::ve
     gap = std::max(gap, joint.thickness);
   }
   show.fine_width = std::max(1.5 * show.chamfer, gap);
-  if (section) show.cut = fmt::format("cut at {} = {:.4g} m", "xyz"[section->axis], section -> at);
+  if (section) show.cut = fmt::format("cut at {} = {:.4g} m", std::string("xyz").substr(std::size_t(section->axis), 1), section->at);
   const MotionScene solid = section ? cut_scene(scene, *section, show.stage.hidden) : scene;
   if (sharp) show.chamfer = 0;
   show.mesh = build_mesh(solid, show.stage.hidden, show.chamfer);
