@@ -5,6 +5,7 @@
 #include <cmath>
 #include <functional>
 #include <memory>
+#include <utility>
 
 #include "engine/analysis/limit/facets.h"
 #include "engine/analysis/limit/interior_point.h"
@@ -251,7 +252,13 @@ class Tilt {
 }  // namespace
 
 LimitResult limit_analysis(const Model& model, const LimitLoad& load, const LimitOptions& options) {
-  return load.tilt ? Tilt(model, load, options).run() : Analysis(model, load, options, 1).run(false);
+  LimitResult out = load.tilt ? Tilt(model, load, options).run() : Analysis(model, load, options, 1).run(false);
+  for (Multiplier* m : {&out.associated, &out.nonassociated})
+    if (m->lower > m->upper) std::swap(m->lower, m->upper);  // of rounds that approximate the law, within their gap
+  // A solution may stall within round-off of its gap.
+  Multiplier& bounds = out.associated;
+  bounds.converged = bounds.converged || bounds.upper - bounds.lower <= gap * (1 + bounds.upper);
+  return out;
 }
 
 }  // namespace erbs::analysis

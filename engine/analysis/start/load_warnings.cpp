@@ -88,12 +88,13 @@ std::string blow(const Load& load, double duration, bool bears) {
   if (std::fabs(jump) > 1e-6)  // m or rad
     return fmt::format("{}: it jumps to {:.4g} {} at {:g} s, within one step; {}", name_of(load), jump, rotates ? "rad" : "m", begin,
                        remedy);
-  if (const double end = end_time(load.wave); end > begin && end < duration && std::fabs(x(end + brief) - x(end - brief)) > 1e-6)
-    return fmt::format("{}: it leaps from {:.4g} {} to 0 at its end, {:g} s; hold = true keeps the last value", name_of(load),
-                       x(end - brief), rotates ? "rad" : "m", end);
   if (bears && std::fabs(speed - before) > sudden_speed)
     return fmt::format("{}: it starts at once with {:.3g} {} at {:g} s, a blow to what the block bears; {}", name_of(load), speed - before,
                        rotates ? "rad/s" : "m/s", begin, remedy);
+  if (const double end = end_time(load.wave); end > begin && end < duration && std::fabs(x(end + brief) - x(end - brief)) > 1e-6)
+    return fmt::format(
+        "{}: it leaps from {:.4g} {} to 0 at its end, {:g} s; a table_wave or curve_wave with hold = true keeps its last value",
+        name_of(load), x(end - brief), rotates ? "rad" : "m", end);
   return "";
 }
 

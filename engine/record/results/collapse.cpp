@@ -56,6 +56,7 @@ bool update(Collapse& collapse, const Model& model, const BlockPoses& pose, doub
     if (collapse.fallen[b]) continue;
     if (newly) newly->push_back(int(b));
     collapse.fallen[b] = 1;
+    collapse.supports.leave(int(b));
     collapse.fall_time[b] = t;
   }
   collapse.fallen_fraction = moving > 0 ? fallen / moving : 0;

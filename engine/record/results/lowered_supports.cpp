@@ -1,6 +1,7 @@
 #include "engine/record/results/lowered_supports.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "engine/base/count.h"
@@ -17,21 +18,32 @@ double way_down(const Model& model, const BlockPoses& pose, const LoweredSupport
   return -(pose.u[s] + rotation_change(pose.q[s], arm)).z();
 }
 
-// Blocks that a joint ties or, for one without a joint, that touch at rest [nblock].
-std::vector<std::vector<int>> neighbours(const Model& model) {
+// Blocks that each block bears at rest: those whose joint faces upwards, and those that lie on it without one [nblock].
+std::vector<std::vector<int>> borne_by(const Model& model) {
   constexpr double touching = 1e-3;  // of a block's thickness
-  std::vector<std::vector<int>> next(model.kind.size());
-  const auto tie = [&](std::size_t a, std::size_t b) { next[a].push_back(int(b)), next[b].push_back(int(a)); };
-  for (const Joint& joint : model.joint) tie(z(joint.a), z(joint.b));
-  std::vector<std::uint8_t> loose;
+  constexpr double upwards = 0.02;   // of a unit normal: a head joint bears nothing
+  std::vector<std::vector<int>> out(model.kind.size());
+  for (const Joint& joint : model.joint) {
+    const double up = joint.type->frame(2, 2);  // of the normal from a to b
+    if (up > upwards) out[z(joint.a)].push_back(joint.b);
+    if (up < -upwards) out[z(joint.b)].push_back(joint.a);
+  }
   std::vector<Eigen::AlignedBox3d> box;
-  for (std::size_t b = 0; b < next.size(); ++b)
-    box.push_back(box_at_rest(model, b)), loose.push_back(model.kind[b] == Kind::moving && next[b].empty());
-  for (std::size_t a = 0; a < next.size(); ++a)
-    for (std::size_t b = 0; loose[a] && b < next.size(); ++b)
-      if (const bool once = !loose[b] || a < b; once && a != b)
-        if (box[a].exteriorDistance(box[b]) <= touching * model.thickness[a]) tie(a, b);
-  return next;
+  std::vector<std::size_t> order;  // from left to right
+  for (std::size_t b = 0; b < out.size(); ++b) box.push_back(box_at_rest(model, b)), order.push_back(b);
+  std::ranges::sort(order, {}, [&](std::size_t b) { return box[b].min().x(); });
+  const auto lies_on = [&](std::size_t upper, std::size_t lower) {
+    return model.kind[upper] == Kind::moving &&
+           std::fabs(box[upper].min().z() - box[lower].max().z()) <= touching * model.thickness[upper] &&
+           box[upper].min().y() < box[lower].max().y() && box[lower].min().y() < box[upper].max().y();
+  };
+  for (std::size_t i = 0; i < order.size(); ++i)
+    for (std::size_t k = i + 1; k < order.size() && box[order[k]].min().x() < box[order[i]].max().x(); ++k) {
+      const std::size_t a = order[i], b = order[k];
+      if (lies_on(a, b)) out[b].push_back(int(a));
+      if (lies_on(b, a)) out[a].push_back(int(b));
+    }
+  return out;
 }
 
 }  // namespace
@@ -39,7 +51,7 @@ std::vector<std::vector<int>> neighbours(const Model& model) {
 std::vector<LoweredSupports::Ride> rides_of(const Model& model) {
   std::vector<LoweredSupports::Ride> out;
   if (model.prescribed_motions.empty()) return out;
-  const std::vector<std::vector<int>> next = neighbours(model);
+  const std::vector<std::vector<int>> next = borne_by(model);
   for (int s = 0; s < model.nblock; ++s) {
     if (model.kind[z(s)] != Kind::driven) continue;
     std::vector<std::uint8_t> seen(next.size());
@@ -62,10 +74,16 @@ void LoweredSupports::follow(const Model& model, const BlockPoses& pose, const s
   }
 }
 
+void LoweredSupports::leave(int block) {
+  for (std::size_t i = 0; i < ride.size(); ++i)
+    if (ride[i].block == block) left[i] = 1;
+}
+
 double LoweredSupports::lowered(const Model& model, const BlockPoses& pose, std::size_t b) const {
   double way = 0;
-  for (const Ride& one : std::ranges::equal_range(ride, int(b), {}, &Ride::block))
-    if (!left[std::size_t(&one - ride.data())]) way = std::max(way, way_down(model, pose, one));
+  const auto first = std::ranges::lower_bound(ride, int(b), {}, &Ride::block);
+  for (std::size_t i = std::size_t(first - ride.begin()); i < ride.size() && ride[i].block == int(b); ++i)
+    if (!left[i]) way = std::max(way, way_down(model, pose, ride[i]));
   return way;
 }
 

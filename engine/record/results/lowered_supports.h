@@ -13,11 +13,12 @@ struct LoweredSupports {
   struct Ride {
     int block, bearer;
   };
-  std::vector<Ride> ride;          // by block, of all that joints or contact lead to from a driven block at rest; not in a checkpoint
-  std::vector<std::uint8_t> left;  // the support was once lower than the block by half its thickness [ride]
+  std::vector<Ride> ride;          // by block, of all that a driven block bears at rest, block upon block; not in a checkpoint
+  std::vector<std::uint8_t> left;  // the support was once lower than the block by half its thickness, or the block has fallen [ride]
 
   // Looks for supports that have left their blocks. `start`: m, height of each block above rest at the start [nblock].
   void follow(const Model& model, const BlockPoses& pose, const std::vector<double>& start);
+  void leave(int block);  // has fallen from all that bore it
   // m, of the support that has been lowered by most below a block.
   double lowered(const Model& model, const BlockPoses& pose, std::size_t b) const;
 };

@@ -118,6 +118,42 @@ TEST_CASE("what rides on a support that is lowered has not fallen, with a joint 
   CHECK(newly == std::vector<int>{int(block("aside"))});
 }
 
+TEST_CASE("a support that sinks bears what stands on it, not what stands beside it, and nothing that has fallen", "[record][collapse]") {
+  lua::Script script(lua::Script::Options{.quiet = true});
+  const Scene scene = script.load_text(R"(
+    material{ name = "s", density = 2000 }
+    for i = 0, 1 do
+      box{ name = "foot"..i, size = {.6, .6, .2}, at = {.6 * i, 0, -.2}, fixed = i == 1 or nil }
+      box{ name = "a"..i, size = {.6, .6, .6}, at = {.6 * i, 0, 0} }
+      box{ name = "top"..i, size = {.2, .2, .2}, at = {.2 + .6 * i, .2, .6}, free = true }
+    end
+    motion{ block = "foot0", direction = "z", wave = curve_wave{ times = {0, 1}, values = {0, -.25}, hold = true } }
+    joint{ law = dry{ kn = 1e9, mu = .6 } }
+    gravity(g) analysis{ duration = 1 }
+  )",
+                                       "beside.lua", {});
+  analysis::Prepared run = analysis::prepare(scene, false);
+  const auto block = [&](const std::string& name) {
+    return std::size_t(std::ranges::find(run.model.block_name, name) - run.model.block_name.begin());
+  };
+  Collapse c = watch_collapse(run.model, run.state.pose);
+  BlockPoses& pose = run.state.pose;
+  for (const char* name : {"foot0", "a0", "top0"}) pose.u[block(name)].z() = -.25;
+  update(c, run.model, pose, 1.0);
+  CHECK(c.fallen_fraction == 0);
+  pose.u[block("a1")].z() = -.35;
+  std::vector<int> newly;
+  update(c, run.model, pose, 2.0, &newly);
+  CHECK(newly == std::vector<int>{int(block("a1"))});
+  pose.u[block("top0")].z() = -.36;
+  update(c, run.model, pose, 3.0, &newly);
+  CHECK(c.fallen[block("top0")]);
+  const double before = c.fallen_fraction;
+  pose.u[block("foot0")].z() = -1;  // it sinks beside what has fallen from it
+  update(c, run.model, pose, 4.0);
+  CHECK(c.fallen_fraction >= before);
+}
+
 TEST_CASE("the direction is the unit mean, and none where blocks fall every way", "[record][collapse]") {
   auto t = test::two_bricks();
   Collapse c = watch_collapse(t.model, t.state.pose);
