@@ -183,6 +183,12 @@ TEST_CASE("loads that begin after the run, and supports that jump, are told", "[
   CHECK(told(motion("function(t) return 0.02 * t end"), "starts at once with 0.02 m/s at 0 s"));
   CHECK_FALSE(told(motion("function(t) return 0.02 * t ^ 2 end"), "motion"));
   CHECK_FALSE(told(motion("curve_wave{ times = { 0, 1 }, values = { 0, 0.02 }, hold = true }"), "motion"));
+  // A smooth curve swings before its second zero.
+  CHECK_FALSE(told(motion("curve_wave{ times = { 0, 1, 2 }, values = { 0, 0, -.3 }, hold = true }"), "it begins at"));
+  CHECK_FALSE(told(motion("curve_wave{ times = { 0, .2, .35 }, values = { 0, 0, -.5 }, hold = true }"), "it jumps"));
+  CHECK(told(motion("table_wave{ times = { 0, .1 }, values = { 0, .02 } }"), "it starts at once with 0.2 m/s"));
+  CHECK(told(motion("table_wave{ times = { 0, .1 }, values = { 0, .02 } }"), "; it leaps from 0.02 m to 0 at its end, 0.1 s"));
+  CHECK(told(motion("sine{ amplitude = .01, frequency = .01, duration = .25 }"), "motion of block \"foot\": it leaps from"));
 
   const auto tilt = [](const std::string& axis) {
     return "gravity(g) tilt{ axis = " + axis + ", wave = sine{ amplitude = .1, frequency = 1 } }";
