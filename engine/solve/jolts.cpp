@@ -12,9 +12,9 @@ namespace erbs {
 namespace {
 
 constexpr int ahead = foresee_every + 2;  // steps: one that is about to be planned and those until the next prediction
-
-constexpr int first_steps = 2 * ahead;  // in which blocks at rest need not touch yet what bears them
-// A leap of a motion is a jump of its place: its speed grows as the step shrinks, which would have no end.
+constexpr int first_steps = 2 * ahead;    // in which blocks at rest need not touch yet what bears them
+// A leap of a motion is a jump of its place: its speed grows as the step shrinks, which would have no end. A blow that errs by a thousandth
+// of its own energy asks for a tenth of the step at rest, one of many blocks for less.
 constexpr double most_shortened = 64;
 
 using Gains = std::array<double, ahead + 1>;  // of speed, as a load gives it in each step from the last one on

@@ -9,6 +9,19 @@
 
 using namespace erbs;
 
+namespace {
+
+analysis::Prepared prepared(const std::string& text) {
+  lua::Script script(lua::Script::Options{.quiet = true});
+  return analysis::prepare(script.load_text(text, "supports.lua", {}), false);
+}
+
+std::size_t block_of(const Model& model, const std::string& name) {
+  return std::size_t(std::ranges::find(model.block_name, name) - model.block_name.begin());
+}
+
+}  // namespace
+
 TEST_CASE("a block has fallen below half its thinnest extent from where it started", "[record][collapse]") {
   auto t = test::two_bricks();
   t.state.pose.u[1].z() = -0.02;  // settlement before the start does not count
@@ -80,8 +93,7 @@ TEST_CASE("supports that are moved down have not fallen", "[record][collapse]") 
 }
 
 TEST_CASE("what rides on a support that is lowered has not fallen, with a joint or without", "[record][collapse]") {
-  lua::Script script(lua::Script::Options{.quiet = true});
-  const Scene scene = script.load_text(R"(
+  analysis::Prepared run = prepared(R"(
     material{ name = "s", density = 2000 } ground{ size = 20 }
     for i = 0, 1 do
       box{ name = "plate"..i, size = {1, 1, .1}, at = {2 * i, 0, 0} }
@@ -91,12 +103,8 @@ TEST_CASE("what rides on a support that is lowered has not fallen, with a joint 
     box{ name = "aside", size = {.3, .2, .1}, at = {5, 0, 0}, free = true }
     joint{ law = dry{ kn = 1e9, mu = .6 } }
     gravity(g) analysis{ duration = 1 }
-  )",
-                                       "lowered.lua", {});
-  analysis::Prepared run = analysis::prepare(scene, false);
-  const auto block = [&](const std::string& name) {
-    return std::size_t(std::ranges::find(run.model.block_name, name) - run.model.block_name.begin());
-  };
+  )");
+  const auto block = [&](const std::string& name) { return block_of(run.model, name); };
   Collapse c = watch_collapse(run.model, run.state.pose);
   BlockPoses& pose = run.state.pose;
   for (const char* name : {"plate0", "plate1", "b00", "b01", "b02", "b10", "b11", "b12"}) pose.u[block(name)].z() = -.3;
@@ -119,8 +127,7 @@ TEST_CASE("what rides on a support that is lowered has not fallen, with a joint 
 }
 
 TEST_CASE("a support that sinks bears what stands on it, not what stands beside it, and nothing that has fallen", "[record][collapse]") {
-  lua::Script script(lua::Script::Options{.quiet = true});
-  const Scene scene = script.load_text(R"(
+  analysis::Prepared run = prepared(R"(
     material{ name = "s", density = 2000 }
     for i = 0, 1 do
       box{ name = "foot"..i, size = {.6, .6, .2}, at = {.6 * i, 0, -.2}, fixed = i == 1 or nil }
@@ -130,12 +137,8 @@ TEST_CASE("a support that sinks bears what stands on it, not what stands beside 
     motion{ block = "foot0", direction = "z", wave = curve_wave{ times = {0, 1}, values = {0, -.25}, hold = true } }
     joint{ law = dry{ kn = 1e9, mu = .6 } }
     gravity(g) analysis{ duration = 1 }
-  )",
-                                       "beside.lua", {});
-  analysis::Prepared run = analysis::prepare(scene, false);
-  const auto block = [&](const std::string& name) {
-    return std::size_t(std::ranges::find(run.model.block_name, name) - run.model.block_name.begin());
-  };
+  )");
+  const auto block = [&](const std::string& name) { return block_of(run.model, name); };
   Collapse c = watch_collapse(run.model, run.state.pose);
   BlockPoses& pose = run.state.pose;
   for (const char* name : {"foot0", "a0", "top0"}) pose.u[block(name)].z() = -.25;
