@@ -2,8 +2,8 @@
 --
 -- What happens   kn is raised until the toe takes 3 % off the static acceleration that overturns the wall, ks with it. Then the damping ratio xi is
 --                fitted to the times and peaks of Housner's free rocking. Of an open bed the damping is the restitution of its contact, exp(-pi xi / sqrt(1 - xi^2)).
---                On feet the fit is xi = .292 +- .012, a restitution of .38, with an rms of .17 %. metrics.pena_xi is the ratio of the printed formula (15),
---                .39 for this wall, a restitution of .26: more than feet need, which lose a part of the spin where they strike, whatever their damping.
+--                On feet the fit is xi = .298 +- .012, a restitution of .38, with an rms of .17 %. metrics.pena_xi is the ratio of the printed formula (15),
+--                .39 for this wall, a restitution of .26: more than these feet need.
 --                On a flat face no damping takes enough (V29).
 -- Source         Pena et al. 2005 as printed by P. J. S. Gomes (IST Lisbon), eqs. (10) to (15). Its stiffness K = M p^2 lacks a factor of the unit: in
 --                N/m the wall would sink by 4 R / 3 = 2 m (metrics.pena_settlement). So kn is not computed from it.
