@@ -6,6 +6,8 @@
 
 #include "engine/base/count.h"
 #include "engine/joints/event_bound.h"
+#include "engine/joints/kinematics.h"
+#include "engine/laws/yield.h"
 #include "engine/model/levels.h"
 
 namespace erbs {
@@ -16,6 +18,9 @@ constexpr int first_steps = 2 * ahead;    // in which blocks at rest need not to
 // A leap of a motion is a jump of its place: its speed grows as the step shrinks, which would have no end. A blow that errs by a thousandth
 // of its own energy asks for a tenth of the step at rest, one of many blocks for less.
 constexpr double most_shortened = 64;
+
+// Force of a joint under a jump of speed over that of one block on it alone: what stands on that block pushes as well.
+constexpr double amplified = 2;
 
 using Gains = std::array<double, ahead + 1>;  // of speed, as a load gives it in each step from the last one on
 
@@ -56,6 +61,25 @@ double face_of(const Model& m, int b) {
   return m.kind[z(b)] == Kind::moving ? mass / (m.materials[z(m.material[z(b)])].density * thin) : 1e300;
 }
 
+// 1/kg, the sum of two inverse masses; a driven block has no mass.
+double lightness(const Model& m, int a, int b) { return m.inverse_mass[z(a)] + m.inverse_mass[z(b)]; }
+
+// False if the bond of an intact joint bears a jump (m/s) of its blocks against each other. It then stays elastic, and a change of the step
+// would err by more than it saves.
+bool may_open(const Model& m, const State& s, int j, double jump) {
+  const JointType& type = *m.joint[z(j)].type;
+  const PointLaw& law = m.laws[z(type.law)];
+  const double light = lightness(m, m.joint[z(j)].a, m.joint[z(j)].b);
+  if (s.joints.stage[z(j)] != JointStage::intact || !law.has_bond() || !(light > 0)) return light > 0;
+  double gap[6];
+  joint_gap(m, s, j, gap);
+  const double bend = std::fabs(gap[3]) * type.half_t + std::fabs(gap[4]) * type.half_s;
+  const double swing = amplified * jump / std::sqrt(light);  // m sqrt(N/m)
+  const double opens = swing / std::sqrt(type.stiffness[2]), slips = swing / std::sqrt(type.stiffness[0]);
+  return scalar::yield_bound(scalar::yield_limits(law), gap[2] + bend + opens, bend - gap[2] + opens, gap[0] * gap[0] + gap[1] * gap[1],
+                             std::fabs(gap[5]) * type.radius + slips) > 0;
+}
+
 }  // namespace
 
 double jolt_rate(const Model& m, const State& s, double budget, double share) {
@@ -79,22 +103,24 @@ double jolt_rate(const Model& m, const State& s, double budget, double share) {
   }
   if (!(shaken > least) && jolted.empty()) return 0;
   double rate = 0;
+  const auto speed = [&](int a, int b) {
+    const double shakes = (m.kind[z(a)] == Kind::moving) != (m.kind[z(b)] == Kind::moving) ? shaken : 0;
+    return shakes + (jolted.empty() ? 0 : jolted[z(a)] + jolted[z(b)]);
+  };
   const auto count = [&](int a, int b, double k) {
-    const double light = m.inverse_mass[z(a)] + m.inverse_mass[z(b)];  // 1/kg; a driven block has no mass
-    double speed = (m.kind[z(a)] == Kind::moving) != (m.kind[z(b)] == Kind::moving) ? shaken : 0;
-    if (!jolted.empty()) speed += jolted[z(a)] + jolted[z(b)];
-    if (!(speed > least) || !(light > 0)) return;
-    const double errs = speed > slow ? std::min(budget, share * 0.5 * speed * speed / light) : budget;
-    rate = std::max(rate, speed * std::sqrt(event_share * k / errs));
+    const double light = lightness(m, a, b), jump = speed(a, b);
+    if (!(jump > least) || !(light > 0)) return;
+    const double errs = jump > slow ? std::min(budget, share * 0.5 * jump * jump / light) : budget;
+    rate = std::max(rate, jump * std::sqrt(event_share * k / errs));
   };
   for (const ContactPair& p : s.contacts.list.pair)
     if (p.touching) count(p.a, p.b, p.law.kn * p.area);
     else if (s.time.step < first_steps) count(p.a, p.b, p.law.kn * std::min(face_of(m, p.a), face_of(m, p.b)));
-  for (int j = 0; j < m.njoint && m.njoint <= few_joints; ++j) {
-    const Joint& joint = m.joint[z(j)];
-    const bool bond = s.joints.stage[z(j)] == JointStage::intact && m.laws[z(joint.type->law)].has_bond();
-    if (s.joints.stage[z(j)] != JointStage::contact && !bond) count(joint.a, joint.b, joint.type->stiffness[2]);
-  }
+  for (int j = 0; j < m.njoint; ++j)
+    if (const Joint& joint = m.joint[z(j)]; s.joints.stage[z(j)] != JointStage::contact) {
+      const double jump = speed(joint.a, joint.b);
+      if (jump > least && may_open(m, s, j, jump)) count(joint.a, joint.b, joint.type->stiffness[2]);
+    }
   return std::min(rate, most_shortened / std::max(s.time.dt_target, s.time.dt));
 }
 

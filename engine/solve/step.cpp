@@ -315,7 +315,7 @@ void Solver::note_excess(int b) {
 }
 
 // Joints and contacts conserve the momentum of all blocks, supports included: their forces and moments must sum to zero. Forces that do
-// not change a digit of any momentum, as a contact has them that just ends, prove nothing.
+// not change more than the last digits of any momentum, as a contact has them that just ends, are round-off and prove nothing.
 void Solver::check_momentum() {
   Vec3 force = Vec3::Zero(), moment = Vec3::Zero();
   double forces = 0, moments = 0, momentum = 0, angular = 0;
@@ -331,7 +331,7 @@ void Solver::check_momentum() {
     momentum += moves;
     angular += arm.norm() * moves + Vec3(state_.motion.spin_momentum[z(b)]).norm();
   }
-  constexpr double digit = std::numeric_limits<double>::epsilon();
+  constexpr double digit = 1e3 * std::numeric_limits<double>::epsilon();
   const double kick = loads_.now().kick;
   double& worst = state_.observed.momentum_residual;
   if (forces * kick > digit * momentum) worst = std::max(worst, force.norm() / forces);

@@ -20,6 +20,13 @@ void read_wave(Call& call, Arguments& arguments, Load& load) {
   }
 }
 
+// A place or an angle given by points stays what it was last: without it a block or gravity would leap back within one step.
+void keep_last_value(Wave& wave) {
+  if (auto* table = std::get_if<Table>(&wave)) table->hold |= !table->says_hold;
+  if (auto* curve = std::get_if<Curve>(&wave); curve && !curve->says_hold && !curve->hold)
+    *curve = make_curve(curve->line.times, curve->line.values, true);
+}
+
 int add_load(Call& call, Load::Kind kind, const char* direction) {
   Arguments arguments = call.arguments();
   const Frame& frame = call.context.frame();
@@ -28,6 +35,7 @@ int add_load(Call& call, Load::Kind kind, const char* direction) {
   load.place = call.place;
   arguments.read("name", load.name);
   read_wave(call, arguments, load);
+  if (kind == Load::Kind::tilt || kind == Load::Kind::motion || kind == Load::Kind::turning) keep_last_value(load.wave);
   arguments.direction(direction, load.direction);
   load.direction = frame.vector(load.direction);
   if (kind == Load::Kind::force || kind == Load::Kind::moment || kind == Load::Kind::motion || kind == Load::Kind::turning)
@@ -166,7 +174,7 @@ std::vector<Function> load_functions() {
        load_keys("rad", "axis", "\"x\", \"y\", \"z\" or a vector", false)},
       {"motion", motion, "{ ... }", "",
        "Prescribes the displacement of a block along a direction; its other degrees of freedom are fixed. A function is followed smoothly; "
-       "the corners of a table_wave are jolts; a curve_wave has none, and starts and ends at rest if it is held.",
+       "the corners of a table_wave are jolts; a curve_wave has none, and starts and ends at rest. Both keep their last value.",
        load_keys("m", "direction", "\"x\", \"y\", \"z\" or a vector", true)},
       {"turning", turning, "{ ... }", "",
        "Prescribes the rotation of a block about an axis. Its position is fixed, unless motion{} prescribes it.", turning_keys},

@@ -90,6 +90,7 @@ int make_wave(Call& call) {
   arguments.read(wave);
   try {
     finish(call, arguments, wave);
+    if constexpr (has_points<W>) wave.says_hold = arguments.has("hold");
   } catch (const Error& error) {  // a mistake in the file names file and line of that file; the script continues with a zero wave
     if (error.place.file == call.place.file) call.context.mistake({}, error.what());
     else call.mistake(error.what());

@@ -79,6 +79,27 @@ std::string astray(const Load& load, const Scene& scene, const Model& model) {
                      beyond);
 }
 
+// Corners of a line of displacements after `begin`, at which its speed jumps by more than `sudden_speed`.
+struct Corners {
+  int count = 0;
+  double time = 0, jump = 0;  // of the hardest: s, and m/s or rad/s
+};
+Corners corners_of(const Wave& wave, double begin, double duration) {
+  Corners found;
+  const Table* table = std::get_if<Table>(&wave);
+  const auto slope = [&](std::size_t i) {  // of the segment before point i; beyond the ends a held value
+    const Polyline& line = table->line;
+    return i == 0 || i == line.times.size() ? 0 : (line.values[i] - line.values[i - 1]) / (line.times[i] - line.times[i - 1]);
+  };
+  for (std::size_t i = 0; table && table->hold && i < table->line.times.size(); ++i) {
+    const double time = table->line.times[i], jump = std::fabs(slope(i + 1) - slope(i));
+    if (!(time > begin && time < duration && jump > sudden_speed)) continue;
+    ++found.count;
+    if (jump > found.jump) found.time = time, found.jump = jump;
+  }
+  return found;
+}
+
 // A displacement or a speed that is there at once, where the wave begins or the run does. `bears`: the block bears others, so that a speed
 // is a blow to them.
 std::string blow(const Load& load, double duration, bool bears) {
@@ -88,19 +109,24 @@ std::string blow(const Load& load, double duration, bool bears) {
   const auto x = [&](double t) { return t < 0 ? 0 : value(load.wave, t); };  // blocks start where the scene has them
   const double jump = x(begin) - x(begin - brief), speed = (x(begin + 2 * brief) - x(begin + brief)) / brief,
                before = (x(begin - brief) - x(begin - 2 * brief)) / brief;
-  const char* remedy = "begin it smoothly, as a curve_wave from 0 with hold = true does";
-  std::string told;
+  const char *remedy = "begin it smoothly, as a curve_wave from 0 does", *unit = rotates ? "rad/s" : "m/s", *place = rotates ? "rad" : "m";
+  std::vector<std::string> told;
   if (std::fabs(jump) > 1e-6)  // m or rad
-    told =
-        fmt::format("{}: it jumps to {:.4g} {} at {:g} s, within one step; {}", name_of(load), jump, rotates ? "rad" : "m", begin, remedy);
+    told.push_back(fmt::format("it jumps to {:.4g} {} at {:g} s, within one step; {}", jump, place, begin, remedy));
   else if (bears && std::fabs(speed - before) > sudden_speed)
-    told = fmt::format("{}: it starts at once with {:.3g} {} at {:g} s, a blow to what the block bears; {}", name_of(load), speed - before,
-                       rotates ? "rad/s" : "m/s", begin, remedy);
+    told.push_back(
+        fmt::format("it starts at once with {:.3g} {} at {:g} s, a blow to what the block bears; {}", speed - before, unit, begin, remedy));
+  if (const Corners corners = corners_of(load.wave, begin, duration); bears && corners.count > 0) {
+    const std::string where = corners.count == 1 ? "" : fmt::format(" (the hardest of {} such points)", corners.count);
+    told.push_back(fmt::format("its speed jumps by {:.3g} {} at {:g} s{}; a curve_wave through its points does not jolt", corners.jump,
+                               unit, corners.time, where));
+  }
   if (const double end = end_time(load.wave); end > begin && end < duration && std::fabs(x(end + brief) - x(end - brief)) > 1e-6)
-    told +=
-        fmt::format("{}it leaps from {:.4g} {} to 0 at its end, {:g} s; a table_wave or curve_wave with hold = true keeps its last value",
-                    told.empty() ? name_of(load) + ": " : "; ", x(end - brief), rotates ? "rad" : "m", end);
-  return told;
+    told.push_back(
+        fmt::format("it leaps from {:.4g} {} to 0 at its end, {:g} s; a table_wave or curve_wave keeps its last value, unless "
+                    "it says hold = false",
+                    x(end - brief), place, end));
+  return told.empty() ? "" : fmt::format("{}: {}", name_of(load), fmt::join(told, "; "));
 }
 
 // True if a joint or, at rest, the box around another block touches the block.

@@ -12,11 +12,14 @@ struct Curve {
   Polyline line;             // its points: s, and the unit of its load; the integrals are those of the curve
   std::vector<double> bend;  // second derivative   [points]
   bool hold = false;         // outside the curve the nearest value holds; else zero
+  bool says_hold = false;    // the script gives `hold`; else motion, turning and tilt hold, as a place or an angle does not vanish
 
   static constexpr std::string_view wave_name = "curve_wave";
   static constexpr std::string_view help = "A smooth curve through given values at given times.";
   // The two arrays `times` and `values` are not fields; make_curve takes them.
-  static Fields<Curve> fields() { return {{"hold", &Curve::hold, "", "outside the curve the nearest value holds (default: zero)"}}; }
+  static Fields<Curve> fields() {
+    return {{"hold", &Curve::hold, "", "outside the curve the nearest value holds (default: zero; of motion, turning and tilt: it holds)"}};
+  }
 };
 
 // Needs increasing times and at least two points. Otherwise throws an Error that counts points from 1.

@@ -6,13 +6,16 @@
 namespace erbs {
 
 struct Table {
-  Polyline line;      // s, and the unit of its load
-  bool hold = false;  // outside the table the nearest value holds; else zero
+  Polyline line;           // s, and the unit of its load
+  bool hold = false;       // outside the table the nearest value holds; else zero
+  bool says_hold = false;  // the script gives `hold`; else motion, turning and tilt hold, as a place or an angle does not vanish
 
   static constexpr std::string_view wave_name = "table_wave";
   static constexpr std::string_view help = "Given values at given times, linear in between.";
   // The two arrays `times` and `values` are not fields; make_table takes them.
-  static Fields<Table> fields() { return {{"hold", &Table::hold, "", "outside the table the nearest value holds (default: zero)"}}; }
+  static Fields<Table> fields() {
+    return {{"hold", &Table::hold, "", "outside the table the nearest value holds (default: zero; of motion, turning and tilt: it holds)"}};
+  }
 };
 
 // Needs increasing times and at least two points. Otherwise throws an Error that counts points from 1.

@@ -187,7 +187,14 @@ TEST_CASE("loads that begin after the run, and supports that jump, are told", "[
   CHECK_FALSE(told(motion("curve_wave{ times = { 0, 1, 2 }, values = { 0, 0, -.3 }, hold = true }"), "it begins at"));
   CHECK_FALSE(told(motion("curve_wave{ times = { 0, .2, .35 }, values = { 0, 0, -.5 }, hold = true }"), "it jumps"));
   CHECK(told(motion("table_wave{ times = { 0, .1 }, values = { 0, .02 } }"), "it starts at once with 0.2 m/s"));
-  CHECK(told(motion("table_wave{ times = { 0, .1 }, values = { 0, .02 } }"), "; it leaps from 0.02 m to 0 at its end, 0.1 s"));
+  CHECK(
+      told(motion("table_wave{ times = { 0, .1 }, values = { 0, .02 }, hold = false }"), "; it leaps from 0.02 m to 0 at its end, 0.1 s"));
+  CHECK_FALSE(told(motion("table_wave{ times = { 0, .1 }, values = { 0, .02 } }"), "leaps"));
+  CHECK(told(motion("table_wave{ times = { 0, .1 }, values = { 0, .02 } }"), "; its speed jumps by 0.2 m/s at 0.1 s; a curve_wave"));
+  CHECK(told(motion("table_wave{ times = { 0, .8, .9, 1.2 }, values = { 0, 0, .02, .01 } }"), "starts at once with 0.2 m/s at 0.8 s"));
+  CHECK(told(motion("table_wave{ times = { 0, .5, .6, .7 }, values = { 0, 0, .02, .01 } }"), "0.3 m/s at 0.6 s (the hardest of 2 such"));
+  CHECK_FALSE(told(motion("table_wave{ times = { 0, .5 }, values = { 0, 1e-3 } }"), "speed"));
+  CHECK_FALSE(told(motion("curve_wave{ times = { 0, .5, .7 }, values = { 0, .1, -.1 } }"), "motion"));
   CHECK(told(motion("sine{ amplitude = .01, frequency = .01, duration = .25 }"), "motion of block \"foot\": it leaps from"));
 
   const auto tilt = [](const std::string& axis) {
