@@ -303,7 +303,7 @@ function pulse(keys) end
 ---@class erbs.table_wave_keys
 ---@field times number[] increasing, at least two [s; -1e+09 to 1e+09]
 ---@field values number[] one for each time, in the unit of the load
----@field hold? boolean outside the table the nearest value holds (default: zero)
+---@field hold? boolean outside the table the nearest value holds (default: zero; of motion, turning and tilt: it holds)
 
 ---Given values at given times, linear in between.
 ---@param keys erbs.table_wave_keys
@@ -313,7 +313,7 @@ function table_wave(keys) end
 ---@class erbs.curve_wave_keys
 ---@field times number[] increasing, at least two [s; -1e+09 to 1e+09]
 ---@field values number[] one for each time, in the unit of the load
----@field hold? boolean outside the curve the nearest value holds (default: zero)
+---@field hold? boolean outside the curve the nearest value holds (default: zero; of motion, turning and tilt: it holds)
 
 ---A smooth curve through given values at given times.
 ---@param keys erbs.curve_wave_keys
@@ -460,7 +460,7 @@ function tilt(keys) end
 ---@field sample? number sampling step of a Lua function [s; 1e-06 to 10; default 0.001]
 ---@field name? string name, for reports
 
----Prescribes the displacement of a block along a direction; its other degrees of freedom are fixed. A function is followed smoothly; the corners of a table_wave are jolts; a curve_wave has none, and starts and ends at rest if it is held.
+---Prescribes the displacement of a block along a direction; its other degrees of freedom are fixed. A function is followed smoothly; the corners of a table_wave are jolts; a curve_wave has none, and starts and ends at rest. Both keep their last value.
 ---@param keys erbs.motion_keys
 function motion(keys) end
 

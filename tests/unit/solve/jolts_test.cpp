@@ -41,7 +41,7 @@ TEST_CASE("a leap of a motion ends no run", "[solve][jolts]") {
   for (const char* direction : {"x", "z"}) {
     const analysis::Prepared run =
         on_plate(fmt::format("motion{{ block = 'plate', direction = '{}', wave = table_wave{{ times = {{0, .01}}, "
-                             "values = {{0, -2e-4}} }} }}",
+                             "values = {{0, -2e-4}}, hold = false }} }}",
                              direction),
                  0.015);
     CHECK(run.state.time.step < 20000);
@@ -56,5 +56,18 @@ TEST_CASE("a dry bed that the ground leaves within a step keeps the ledger", "[s
         ".02, duration = .03 } }",
         0.05, fmt::format("joint{{ law = dry{{ kn = {}, mu = .6 }} }} ", kn));
     CHECK(run.state.energy.residual_worst < 1e-4);
+  }
+}
+
+TEST_CASE("a jolt shortens the step before mortar that it breaks, not where the bond bears it", "[solve][jolts]") {
+  const std::string start = "motion{ block = 'plate', direction = 'z', wave = table_wave{ times = {0, .02, 1}, values = {0, 0, .3} } }";
+  for (const double ft : {2e4, 1e5, 2e7}) {
+    CAPTURE(ft);
+    const std::string bed = fmt::format("joint{{ law = mortar{{ kn = 1e10, ft = {}, c = {}, mu = .6 }} }} ", ft, 2 * ft);
+    const analysis::Prepared run = on_plate(start, 0.03, bed);
+    const bool bears = ft > 1e6;  // .3 m/s sqrt(k m) = 66 kN, .73 MPa
+    CHECK((run.state.joints.stage[0] == JointStage::intact) == bears);
+    CHECK(run.state.energy.residual_worst < (bears ? 1e-6 : 1e-4));
+    if (bears) CHECK(run.state.time.dt == Approx(run.state.time.dt_target));
   }
 }

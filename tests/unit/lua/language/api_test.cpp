@@ -162,6 +162,21 @@ TEST_CASE("waves are values, can be called, and drive loads", "[lua]") {
   CHECK(value(sampled, 0.25) == Approx(4 * std::cos(pi / 2) + 0.25).margin(1e-9));
 }
 
+TEST_CASE("a place or an angle given by points keeps its last value, a force does not, unless `hold` says so", "[lua]") {
+  for (const std::string wave : {"table_wave", "curve_wave"})
+    for (const std::string hold : {"", ", hold = true", ", hold = false"}) {
+      CAPTURE(wave, hold);
+      const std::string of = " wave = " + wave + "{ times = {0, 1}, values = {0, .1}" + hold + " } }\n";
+      const Scene scene = scene_of(
+          "box{ name = 'table', size = {1,1,1}, at = {5,0,0}, material = 'brick', free = true }\n"
+          "motion{ block = 'table', direction = 'x'," +
+          of + "turning{ block = 'table', axis = 'z'," + of + "tilt{ axis = 'y'," + of + "force{ block = 'b', direction = 'x'," + of +
+          "ground_motion{ direction = 'x'," + of);
+      const bool says = hold.ends_with("true"), is_silent = hold.empty();
+      for (std::size_t i = 0; i < 5; ++i) CHECK(value(scene.loads.at(i).wave, 9) == Approx(says || (is_silent && i < 3) ? 0.1 : 0));
+    }
+}
+
 TEST_CASE("a wrong number among the points of a wave is one mistake, not two", "[lua][bad_input]") {
   for (const char* wave : {"table_wave", "curve_wave"})
     for (const char* points : {"times = {0, 0/0, 2}, values = {0, 1, 2}", "times = {0, 1, 2}, values = {0, {}, 2}"}) {
