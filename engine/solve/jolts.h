@@ -6,8 +6,8 @@
 
 namespace erbs {
 
-// Event rate (1/s, event_bound.h) of such blows within the next steps, of all contacts and, in a structure of few joints, of joints that
-// may open. `budget`: J, of one event; `share`: of the energy of a blow (`blow_share`). 0: none is near.
+// Event rate (1/s, event_bound.h) of such blows within the next steps, of all contacts and of joints that may open.
+// `budget`: J, of one event; `share`: of the energy of a blow (`blow_share`). 0: none is near.
 double jolt_rate(const Model& model, const State& state, double budget, double share);
 
 }  // namespace erbs
