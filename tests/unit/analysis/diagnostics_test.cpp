@@ -52,3 +52,19 @@ TEST_CASE("a diverged run names the step that the user gave, and the one it had 
   run.state.time.dt = 2.5e-7;
   CHECK_THAT(trouble_of(so_far, "diverged"), Catch::Contains("(dt = 1e-05 s at the start and 2.5e-07 s there, limit "));
 }
+
+TEST_CASE("round-off of a block at rest is no divergence, and negative kinetic energy beyond it is", "[analysis][trust]") {
+  const Scene scene = test::small_wall("analysis{duration=1}");
+  Prepared run = prepare(scene, false);
+  const Collapse collapse;
+  const RunDiagnostics diagnostics;
+  const RunSoFar so_far{.scene = scene, .run = run, .collapse = collapse, .diagnostics = diagnostics, .dt_at_start = 1e-5};
+  Energy& e = run.state.energy;
+  e.elastic = 1e-13, e.gravity = -2e-13;  // J, of a chip on a stiff bed
+  run.state.time.step = 10'000'000;
+  for (const auto& [kinetic, expected] : {std::pair{-5e-46, false}, {-1e-18, true}}) {
+    long right = 0;
+    e.kinetic = kinetic;
+    CHECK(diverges(so_far, right) == expected);
+  }
+}
