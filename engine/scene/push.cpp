@@ -6,10 +6,13 @@
 #include <utility>
 
 #include "engine/base/spelling.h"
+#include "engine/base/units.h"
 #include "engine/scene/scene.h"
 
 namespace erbs {
 namespace {
+
+constexpr double most_tilt = 89.001 * pi / 180;  // rad
 
 struct PushCheck {
   const Scene& scene;
@@ -97,7 +100,9 @@ void check_numbers(PushCheck& c) {
   if (!(std::abs(push.direction.norm() - 1) < 1e-6)) c.say("direction has no length; give a vector");
   const double most = push.up_to > 0 ? push.up_to : push.tilts() ? 1.0 : 2.0;
   if (push.step > most) c.say("step = {:g} is beyond up_to = {:g}; take a smaller step", push.step, most);
-  if (push.tilts() && push.up_to > 3.1) c.say("up_to = {:g} is beyond 3.1 rad; a table does not turn further", push.up_to);
+  if (push.tilts() && push.up_to > most_tilt)
+    c.say("up_to = {:g} rad is beyond 89 degrees, where the tangent that is the multiplier of a tilt ends; give 89*deg at most",
+          push.up_to);
   for (const double one : push.path)
     if (!(std::abs(one) <= most)) c.say("path: {:g} is beyond up_to = {:g}; raise up_to, or leave it out", one, most);
   if (push.control == "displacement") {

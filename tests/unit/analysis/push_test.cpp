@@ -347,6 +347,7 @@ TEST_CASE("wrong input of a push is met with its remedy", "[push][bad-input]") {
   says("kind = 'pushover', levels = 2", "one time level");
   says("kind = 'pushover', path = { 3 }", "beyond up_to");
   says("kind = 'tilt', direction = 'z'", "horizontal");
+  says("kind = 'tilt', up_to = 91*deg", "89*deg at most");
   says("kind = 'tilt', pattern = { { group = 'wall', force = {1, 0, 0} } }", "takes no pattern");
   says("kind = 'tilt'", "there is none; add gravity", "gravity(0)");
   says("kind = 'pushover'", "remove this load", "ground_motion{ wave = sine{ amplitude = 1, frequency = 1 } }");
