@@ -35,6 +35,7 @@ constexpr int release_rarely = 128;  // steps, where thousands of joints open on
 // their factors stay small beside a step.
 constexpr double quick_steps = 40, slow = 10;
 constexpr int least_piece = 40, most_pieces = 200;
+constexpr double least_along = 1e-6;                     // of the way of a monitored point that a machine controls: what is along the push
 constexpr int control_every = 4;                         // steps between two readings of the displacement that controls the load
 constexpr double controlled_steps = 40 * control_every;  // at least, in a period of the pieces with the loading machine
 constexpr double longest_lag = 0.5;                      // rad, of the swing on the loading machine, between two readings
@@ -137,9 +138,17 @@ void Relaxation::take_machine(const Freedom& freedom) {
   constexpr double small = 1e-6;  // of the load: rotations are small
   BlockPoses pose = run_.state.pose;
   const double before = monitor_.along(pose);
+  const Vec3 start = monitor_.displacement(pose);
   pose.u[z(b)] += small * elastic.motion.segment<3>(i);
   pose.q[z(b)] = rotation(small * Vec3(elastic.motion.segment<3>(i + 3))) * Quat(pose.q[z(b)]);
-  elastic_slope_ = small / std::fabs(monitor_.along(pose) - before);
+  const double moved = monitor_.along(pose) - before;
+  if (moved <= least_along * (monitor_.displacement(pose) - start).norm())
+    throw Error(
+        fmt::format("analysis: control = \"displacement\": the push moves the monitored point of block \"{}\" {}; turn direction to the "
+                    "side that it pushes to, or take another point with monitor",
+                    model_.block_name[z(b)], moved < 0 ? "against its direction" : "in no way along its direction"),
+        push_.place);
+  elastic_slope_ = small / moved;
   loaded_rate_ = elastic.frequency * elastic.frequency;
   on_block_ = std::fabs(model_.inverse_mass[z(b)] * load[z(b)].dot(push_.direction));
 }

@@ -194,3 +194,15 @@ TEST_CASE("control by displacement names the mechanism past the peak, and leaves
   CHECK_FALSE(before.capacity->past_peak);
   CHECK(before.capacity->mechanism.empty());
 }
+
+TEST_CASE("a push that no machine can control is refused with the remedy", "[push][bad-input]") {
+  const std::string block = stone +
+                            "box{ name = 'b', size = {.4, .4, 1}, at = {-.2, -.2, 0} } joint{ law = dry{ kn = 1e10, mu = .6 } } "
+                            "analysis{ kind = 'pushover', control = 'displacement', displacement = .01, ";
+  for (const auto& [push_by, said] :
+       {std::pair{"pattern = { { block = 'b', force = {-1e3, 0, 0} } } }", "against its direction; turn direction"},
+        {"pattern = { { block = 'b', force = {0, 1e3, 0} } } }", "in no way along its direction"}}) {
+    const test::Scratch dir("push_backwards");
+    CHECK_THROWS_WITH(push(block + push_by, dir.path), Catch::Contains(said));
+  }
+}
