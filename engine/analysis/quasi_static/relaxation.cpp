@@ -9,6 +9,7 @@
 #include "engine/base/count.h"
 #include "engine/base/error.h"
 #include "engine/base/units.h"
+#include "engine/solve/blocks/integrate.h"
 
 namespace erbs::analysis {
 namespace {
@@ -205,8 +206,10 @@ double Relaxation::kinetic(const State& s) const {
 
 Vec3 Relaxation::reaction(const Solver& solver) const {
   Vec3 sum = Vec3::Zero();
-  for (int b = 0; b < model_.nblock; ++b)
-    if (model_.kind[z(b)] != Kind::moving) sum += solver.sample().block_wrench[z(b)].head<3>();
+  for (int b = 0; b < model_.nblock; ++b) {
+    if (model_.kind[z(b)] == Kind::moving) sum -= model_.mass[z(b)] * weight_share(model_, b) * model_.gravity;
+    else sum += solver.sample().block_wrench[z(b)].head<3>();
+  }
   return sum;
 }
 

@@ -76,7 +76,8 @@ class Relaxation {
     for (const int b : blocks) model_.kind[std::size_t(b)] = Kind::fixed;
   }
   void set_load(double multiplier) { loads_.set(multiplier); }
-  Vec3 reaction(const Solver& solver) const;  // N, on fixed and driven blocks
+  // N, on fixed and driven blocks, without the weight of the others: a push that rises or falls would take a part of it for base shear.
+  Vec3 reaction(const Solver& solver) const;
 
  private:
   // Once, with steps that are `finer` times shorter. `exact`: whatever the ledger misses.

@@ -15,7 +15,7 @@ struct CurvePoint {
   double multiplier = 0;              // share of g or of the pattern; of a tilt the tangent of its angle
   double displacement = 0;            // m, of the monitored point along the push
   double most = 0;                    // m, of the block that moved most along the push
-  double base_shear = 0;              // N, along the push, on fixed blocks
+  double base_shear = 0;              // N, along the push, on fixed blocks; of the push and constant forces, without the weight
   double base_shear_over_weight = 0;  // of the weight of the moving blocks; NaN without gravity
   int opening = 0, slid = 0;          // joints that are open, that have slid
   double unbalanced = 0;              // mean unbalanced force over mean applied force

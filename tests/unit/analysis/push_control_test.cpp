@@ -206,3 +206,18 @@ TEST_CASE("a push that no machine can control is refused with the remedy", "[pus
     CHECK_THROWS_WITH(push(block + push_by, dir.path), Catch::Contains(said));
   }
 }
+
+TEST_CASE("the base shear of a push in any direction is what the push adds, without the weight", "[push]") {
+  for (const std::string direction : {"{1, 0, 0}", "{.8, 0, .6}", "{.8, 0, -.6}", "{.6, .8, 0}", "{0, 0, -1}"}) {
+    CAPTURE(direction);
+    const test::Scratch dir("push_oblique");
+    const auto outcome = push(stone +
+                                  "box{ name = 'b', size = {.4, .4, 1}, at = {-.2, -.2, 0} } joint{ law = dry{ kn = 1e10, mu = .6 } } "
+                                  "analysis{ kind = 'pushover', limit = 'never', step = .05, up_to = .1, direction = " +
+                                  direction + " }",
+                              dir.path);
+    const CurvePoint& at = outcome.metrics.capacity->peak;
+    CHECK(at.multiplier == Approx(0.1));
+    CHECK(at.base_shear_over_weight == Approx(0.1).epsilon(1e-3));
+  }
+}
