@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "engine/analysis/limit/report.h"
+#include "engine/base/units.h"
 #include "engine/model/build/build.h"
 #include "engine/record/folder/run_folder.h"
 #include "lua/program/options.h"
@@ -49,7 +50,7 @@ void print_row(const char* name, const Multiplier& m, const std::string& more) {
   say("{:<16} {:>10.5f}   {:.6f} .. {:.6f}{}{}\n", name, m.middle(), m.lower, m.upper, more, m.converged ? "" : "   not converged");
 }
 
-void print(const LimitResult& r, const LimitLoad& load, const Model& model) {
+void print(const LimitResult& r, const LimitLoad& load, const Model& model, const std::optional<double>& smooth) {
   say("{} blocks, {} joints, {} contact points; {}; {:.2f} s\n", r.problem.nbody, model.njoint, r.problem.contacts.size(), r.method,
       r.seconds);
   const std::string mechanism = limit_mechanism(r, model).words;
@@ -61,6 +62,9 @@ void print(const LimitResult& r, const LimitLoad& load, const Model& model) {
   print_row("associated", r.associated, fmt::format("   {} iterations", r.associated.iterations));
   if (r.has_nonassociated)
     print_row("non-associated", r.nonassociated, fmt::format("   {} rounds, {} iterations", r.rounds, r.nonassociated.iterations));
+  if (smooth && *smooth < (1 - 1e-3) * r.last().middle())
+    say("{:<16} {:>10.5f}   without friction of upright joints: a push on stiff beds bears what lies between\n", "smooth uprights",
+        *smooth);
   if (load.pattern.empty())
     say("lambda is a share of g along ({:.4g}, {:.4g}, {:.4g})\n", load.direction.x() + 0.0, load.direction.y() + 0.0,
         load.direction.z() + 0.0);
@@ -69,7 +73,23 @@ void print(const LimitResult& r, const LimitLoad& load, const Model& model) {
   say("mechanism        {}\n", mechanism);
 }
 
-void write_folder(const LimitResult& r, const LimitLoad& load, const Model& model, const std::string& name, const std::string& folder) {
+// Why there is no multiplier, and what to do about it.
+std::string unbounded_text(const LimitLoad& load, const LimitOptions& options, const std::optional<double>& smooth) {
+  const std::string never =
+      load.tilt ? "the tilt never makes a mechanism: the structure stands at any angle up to 90 degrees"
+                : fmt::format("the load never makes a mechanism: the structure carries {:g} times it, and more", options.most);
+  if (smooth)
+    return fmt::format(
+        "{}, held by friction of upright joints, which statics lets press each other as hard as it takes, though nothing need press them "
+        "at rest; without it {}; a run with analysis{{ kind = \"{}\" }} finds what lies between",
+        never, load.tilt ? fmt::format("to {:.3f} deg", std::atan(*smooth) * 180 / pi) : fmt::format("lambda = {:.5f}", *smooth),
+        load.tilt ? "tilt" : "pushover");
+  if (load.tilt) return never + "; tilt to another side with direction in analysis{}, or give joints a finite strength";
+  return never + "; push in another direction with --direction, or give joints a finite strength";
+}
+
+void write_folder(const LimitResult& r, const LimitLoad& load, const Model& model, const std::optional<double>& smooth,
+                  const std::string& name, const std::string& folder) {
   try {
     fs::create_directories(folder);
   } catch (const fs::filesystem_error& mistake) {
@@ -77,6 +97,7 @@ void write_folder(const LimitResult& r, const LimitLoad& load, const Model& mode
   }
   Json json = limit_json(r, load, model);
   json["scene"] = name;
+  json["smooth_uprights"] = smooth ? Json(*smooth) : Json();
   write_json(run_file(folder, "limit.json"), json);
   write_mechanism(r, model, run_file(folder, "mechanism.csv"));
   write_thrusts(r, model, run_file(folder, "thrust.csv"));
@@ -98,14 +119,11 @@ int verb_limit(const LimitCommand& command) {
   LimitOptions options;
   options.no_tension = command.no_tension, options.associated_only = command.associated, options.facets = command.facets;
   const LimitResult result = limit_analysis(built.model, load, options);
-  if (result.unbounded)
-    throw Error(
-        fmt::format("{}: the load never makes a mechanism: the structure carries {:g} times it, and more; push in another direction with "
-                    "--direction, or give joints a finite strength",
-                    scene.file, options.most));
-  if (!command.output.quiet) print(result, load, built.model);
+  const std::optional<double> smooth = smooth_multiplier(built.model, load, options, result);
+  if (result.unbounded) throw Error(scene.file + ": " + unbounded_text(load, options, smooth));
+  if (!command.output.quiet) print(result, load, built.model, smooth);
   if (command.output.directory.empty()) return exit_ok;
-  write_folder(result, load, built.model, scene.name, command.output.directory);
+  write_folder(result, load, built.model, smooth, scene.name, command.output.directory);
   if (!command.output.quiet) say("{0}/limit.json, mechanism.csv, thrust.csv, limit.svg, limit.png\n", command.output.directory);
   return exit_ok;
 }

@@ -50,6 +50,8 @@ function trust(metrics) {
     lines.push(`The largest load is known to ${percent((capacity.upper - capacity.multiplier) / capacity.upper)}`);
   const {dry, bonded} = capacity.limit ?? {};
   if (dry) lines.push(`Limit analysis without bond: ${limitText(dry)}`);
+  if (typeof dry?.smooth_uprights === 'number')
+    lines.push(`The same without friction of upright joints, which nothing need press at rest: ${multiplierText(dry.smooth_uprights)}`);
   if (bonded) lines.push(`Limit analysis with bond, as if ductile: ${limitText(bonded)}`);
   if (!dry) lines.push('No limit analysis beside it');
   return card(bad ? 'bad' : 'good', 'Trust', bad ? 'With care: the numbers did not hold' : 'All states shown are in equilibrium', lines);

@@ -78,9 +78,13 @@ std::string capacity_text(const PushSettings& push, const Json& metrics) {
                                                     b["converged"].get<bool>() ? "" : " (not converged)")
                                       : std::string("no mechanism");
     };
-    text +=
-        fmt::format("\nlimit analysis: {}{}", bracket(limit["dry"]),
-                    limit["bonded"].is_object() ? fmt::format(" without bond; {} with it, as if ductile", bracket(limit["bonded"])) : "");
+    const Json* smooth = find_key(limit, "dry.smooth_uprights");
+    text += fmt::format(
+        "\nlimit analysis: {}{}{}", bracket(limit["dry"]),
+        smooth && smooth->is_number()
+            ? fmt::format(", by friction of upright joints that nothing need press at rest; {:.5g} without it", smooth->get<double>())
+            : "",
+        limit["bonded"].is_object() ? fmt::format(" without bond; {} with it, as if ductile", bracket(limit["bonded"])) : "");
   }
   if (const std::string mechanism = capacity->value("mechanism_text", ""); !mechanism.empty()) text += "\nmechanism: " + mechanism;
   std::string walls;

@@ -38,10 +38,17 @@ bool is_bracket(const LimitSolution& s) {
   return !s.force.empty() && (s.converged || std::fabs(s.kinematic - s.statical) <= 1e-3 * (1 + std::fabs(s.statical)));
 }
 
+bool upright(const Model& m, const ContactPoint& c) {
+  constexpr double tilted = 0.5;  // sine
+  return std::fabs(m.joint[z(c.joint)].type->frame.col(2).dot(m.gravity)) < tilted * m.gravity.norm();
+}
+
 class Analysis {
  public:
   Analysis(const Model& model, const LimitLoad& load, const LimitOptions& options, double factor) : model_(model), options_(options) {
     result_.problem = limit_problem(model, load, {options.no_tension, factor});
+    for (ContactPoint& c : result_.problem.contacts)
+      if (options.smooth_uprights && upright(model, c)) c.mu = 0;
     using Solver = LimitOptions::Solver;
     simplex_ = options.facets > 0 || options.solver == Solver::simplex ||
                (options.solver == Solver::automatic && p().plane && p().contacts.size() <= simplex_points);
@@ -250,6 +257,19 @@ class Tilt {
 };
 
 }  // namespace
+
+std::optional<double> smooth_multiplier(const Model& model, const LimitLoad& load, const LimitOptions& options, const LimitResult& with) {
+  const auto rubs = [&](const ContactPoint& c) { return c.mu > 0 && upright(model, c); };
+  if (!with.stands || std::ranges::none_of(with.problem.contacts, rubs)) return std::nullopt;
+  LimitOptions smooth = options;
+  smooth.smooth_uprights = true;
+  try {
+    const LimitResult r = limit_analysis(model, load, smooth);
+    return r.stands && !r.unbounded ? std::optional(r.last().middle()) : std::nullopt;
+  } catch (const NumbersError&) {  // the answer stands without it
+    return std::nullopt;
+  }
+}
 
 LimitResult limit_analysis(const Model& model, const LimitLoad& load, const LimitOptions& options) {
   LimitResult out = load.tilt ? Tilt(model, load, options).run() : Analysis(model, load, options, 1).run(false);

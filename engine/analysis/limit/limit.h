@@ -10,6 +10,7 @@
 // A tilt turns gravity by atan(lambda), while other loads and bonds stay. Divided by the cosine, it is a push by lambda beside these times
 // sqrt(1 + lambda^2): an outer iteration looks for the lambda at which factor and answer agree. Forces are those of the push.
 #pragma once
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,8 @@ namespace erbs::analysis {
 struct LimitOptions {
   bool no_tension = false;       // without the bond of mortar
   bool associated_only = false;  // skips the iteration
+  // Without friction in joints that stand upright, within 30 degrees: their faces may press each other as hard as friction needs.
+  bool smooth_uprights = false;
   // Facets of the friction cones, an even number from 4 on: two linear programs. 0: round cones by the interior point method; in a plane
   // problem of moderate size one linear program.
   int facets = 0;
@@ -52,6 +55,13 @@ struct LimitResult {
   std::vector<Twist> velocity;  // scaled so that the fastest block moves by 1 m/s; spin in rad/s   [nblock]
   const Multiplier& last() const { return has_nonassociated ? nonassociated : associated; }
 };
+
+// The multiplier without friction in upright joints, beside the answer `with` it. None: no such joint rubs, the structure does not stand
+// without, as an arch, or still bears any load.
+//
+// Statics lets faces that nothing presses at rest, such as heads of bricks between fixed blocks, press each other as hard as friction needs
+// (self-stress). A push begins without such forces: on stiff beds its capacity lies between both numbers.
+std::optional<double> smooth_multiplier(const Model& model, const LimitLoad& load, const LimitOptions& options, const LimitResult& with);
 
 // Throws Error as limit_problem() does, and NumbersError where a solver fails.
 LimitResult limit_analysis(const Model& model, const LimitLoad& load, const LimitOptions& options);

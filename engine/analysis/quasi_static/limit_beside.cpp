@@ -14,6 +14,9 @@ namespace {
 // slides much takes more rounds: a room of 639 blocks (7,256 points without bond) 28 s.
 constexpr std::size_t quick = 12000;
 
+// Capacity over the limit of rigid blocks below which more than the toes of soft beds is amiss.
+constexpr double far_below = 0.95;
+
 LimitBracket bracket_of(const LimitResult& r, const Model& model) {
   LimitBracket out;
   out.stands = r.stands;
@@ -38,7 +41,8 @@ Model without(Model m, const std::vector<std::uint8_t>& blocks) {
 
 }  // namespace
 
-std::optional<LimitBeside> limit_beside(const Scene& scene, const Model& whole, const std::vector<std::uint8_t>& fell, std::string& why) {
+std::optional<LimitBeside> limit_beside(const Scene& scene, const Model& whole, std::optional<double> borne,
+                                        const std::vector<std::uint8_t>& fell, std::string& why) {
   if (scene.push.limit == "never") return std::nullopt;
   const Model model = without(whole, fell);
   try {
@@ -48,7 +52,9 @@ std::optional<LimitBeside> limit_beside(const Scene& scene, const Model& whole, 
     LimitBeside out;
     LimitOptions options;
     options.no_tension = true;
-    out.dry = bracket_of(limit_analysis(model, load, options), model);
+    const LimitResult dry = limit_analysis(model, load, options);
+    out.dry = bracket_of(dry, model);
+    if (borne > 0 && (dry.unbounded || borne < far_below * out.dry.lower)) out.dry.smooth = smooth_multiplier(model, load, options, dry);
     const bool bond = std::any_of(problem.contacts.begin(), problem.contacts.end(),
                                   [](const ContactPoint& c) { return c.tension > 0 || c.cohesion > 0; });
     options.no_tension = false;

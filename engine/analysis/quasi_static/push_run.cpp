@@ -370,7 +370,8 @@ RunOutcome PushRun::go() {
   }
   if (status == "completed") {
     std::string why;
-    limit_ = limit_beside(scene_, run_.model, so_far_.fell, why);
+    const bool found = so_far_.path.above || past_peak(push_, so_far_);
+    limit_ = limit_beside(scene_, run_.model, found ? std::optional(so_far_.peak.multiplier) : std::nullopt, so_far_.fell, why);
     if (!why.empty()) writer_->log("no limit analysis beside the capacity: " + why);
   }
   writer_->log(fmt::format("status {}", status));

@@ -14,6 +14,8 @@ Json bracket_json(const LimitBracket& b) {
                                    {"associated_lower", b.associated_lower},
                                    {"associated_upper", b.associated_upper}})
     json[key] = b.stands && !b.unbounded ? Json(value) : Json();
+  json["unbounded"] = b.unbounded;
+  json["smooth_uprights"] = b.smooth ? Json(*b.smooth) : Json();
   return json;
 }
 

@@ -28,6 +28,7 @@ struct LimitBracket {
   bool converged = false;                 // the iteration for friction without dilatancy has settled
   double lower = 0, upper = 0;            // of its last round
   double associated_lower = 0, associated_upper = 0;
+  std::optional<double> smooth;  // the multiplier without friction in upright joints, where the push bears less than with it
   std::string mechanism;
 };
 struct LimitBeside {

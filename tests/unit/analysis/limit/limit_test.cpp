@@ -11,8 +11,10 @@
 using namespace erbs;
 using namespace erbs::test;
 using namespace erbs::lua;
+using analysis::LimitLoad;
 using analysis::LimitOptions;
 using analysis::LimitResult;
+using analysis::smooth_multiplier, analysis::limit_analysis;
 using Solver = analysis::LimitOptions::Solver;
 
 namespace {
@@ -265,4 +267,24 @@ TEST_CASE("an iteration that does not settle says so, and gives no number beyond
     CHECK(std::fabs(r.nonassociated.upper - r.nonassociated.lower) < 2e-3);
     if (std::string(rows) == "2") CHECK(r.nonassociated.converged);
   }
+}
+
+TEST_CASE("the multiplier without friction of upright joints is said where statics clamps blocks", "[limit]") {
+  const std::string walls =
+      "for _, x in ipairs { -1, 1 } do box { size = { 1, 2, 1 }, at = { x, 0, 0 }, fixed = true, material = 'stone' } end\n";
+  for (const double mu : {0.3, 0.7}) {
+    const Model model = limit_model(single_block("{ 1, 2, 1 }", dry(mu)) + walls);
+    LimitLoad load;
+    load.direction = Vec3::UnitY();
+    const LimitResult clamped = limit_analysis(model, load, {});
+    CHECK(clamped.unbounded);  // both walls may press the block as hard as it takes
+    const std::optional<double> smooth = smooth_multiplier(model, load, {}, clamped);
+    REQUIRE(smooth);
+    CHECK(*smooth == Approx(mu).epsilon(1e-4));  // of its weight on the ground
+  }
+  const Model alone = limit_model(single_block("{ 1, 2, 1 }", dry(0.5)));
+  CHECK_FALSE(smooth_multiplier(alone, {}, {}, limit_analysis(alone, {}, {})));
+  const Model arch = limit_model("material { name = 'stone', density = 2000 }\njoint { law = " + dry(0.8) +
+                                 " }\narch { radius = 1, thickness = .2, width = .3, voussoirs = 9 }");
+  CHECK_FALSE(smooth_multiplier(arch, {}, {}, limit_analysis(arch, {}, {})));  // it does not stand without
 }

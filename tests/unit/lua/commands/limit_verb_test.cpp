@@ -91,3 +91,25 @@ TEST_CASE("erbs limit refuses what has no answer, with the remedy", "[limit][pro
     CHECK(contains(bench.said, said));
   }
 }
+
+TEST_CASE("erbs limit says why a load finds no mechanism", "[limit][program]") {
+  Bench bench;
+  const std::string scene = (bench.folder / "block.lua").string(), text = tall_block, alone = text.substr(0, text.find("analysis"));
+  const std::string walls =
+      "for _, x in ipairs { -1, 1 } do box { size = { 1, 2, 1 }, at = { x, 0, 0 }, fixed = true, material = 'stone' } end\n";
+  const std::string roof = "box { size = { 1, 2, 1 }, at = { 0, 0, 4 }, fixed = true, material = 'stone' }\n";
+  const std::string push = "analysis { kind = 'pushover', direction = 'y' }\n", tilt = "analysis { kind = 'tilt', direction = 'y' }\n";
+  const std::pair<std::string, const char*> cases[]{
+      {walls + push, "the structure carries 10000 times it, and more, held by friction of upright joints"},
+      {walls + push, "without it lambda = 0.50000; a run with analysis{ kind = \"pushover\" }"},
+      {walls + tilt, "the structure stands at any angle up to 90 degrees, held by"},
+      {walls + tilt, "without it to 26.565 deg; a run with analysis{ kind = \"tilt\" }"},
+      {roof + tilt, "90 degrees; tilt to another side with direction in analysis{}, or give"}};
+  for (const auto& [more, said] : cases) {
+    bench.write("block.lua", alone + more);
+    INFO(said);
+    CHECK(bench.erbs({"limit", scene}) == 2);
+    CHECK(contains(bench.said, said));
+    CHECK(contains(bench.said, "push") == (more == walls + push));
+  }
+}
