@@ -66,8 +66,8 @@ void print(const LimitResult& r, const LimitLoad& load, const Model& model, cons
     say("{:<16} {:>10.5f}   without friction of upright joints: a push on stiff beds bears what lies between\n", "smooth uprights",
         *smooth);
   if (load.pattern.empty())
-    say("lambda is a share of g along ({:.4g}, {:.4g}, {:.4g})\n", load.direction.x() + 0.0, load.direction.y() + 0.0,
-        load.direction.z() + 0.0);
+    say("lambda is {} ({:.4g}, {:.4g}, {:.4g})\n", load.tilt ? "the tangent of the tilt towards" : "a share of g along",
+        load.direction.x() + 0.0, load.direction.y() + 0.0, load.direction.z() + 0.0);
   else say("lambda multiplies the pattern of forces\n");
   if (const auto tilt = tilt_angle(r, load, model)) say("tilting angle    {:.3f} deg   atan(lambda): a tilted base or gravity\n", *tilt);
   say("mechanism        {}\n", mechanism);

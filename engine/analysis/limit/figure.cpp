@@ -161,7 +161,7 @@ void draw_limit(const LimitResult& r, const LimitLoad& load, const Model& m, con
     plot::Panel panel;
     const double from = i * (side + left + 15) + left;
     panel.axes = {from / w, (from + side) / w, foot / h, 1 - top / h};
-    panel.x = {"along the push (m)", x_range, "", "", ""};
+    panel.x = {load.tilt ? "towards the side that goes down (m)" : "along the push (m)", x_range, "", "", ""};
     panel.y = {i == 0 ? "height (m)" : "", y_range, "", "", ""};
     panel.settings = "set size ratio -1\n";
     panel.labels = {{i == 0 ? "thrust in the joints" : found.kind, "graph 0.5, 1.03", "center"}};

@@ -37,6 +37,10 @@ TEST_CASE("erbs limit says multiplier, tilting angle and mechanism", "[limit][pr
   CHECK_FALSE(contains(bench.said, "non-associated"));
   REQUIRE(bench.erbs({"limit", scene, "-q"}) == 0);
   CHECK(bench.said.empty());
+  const std::string text = tall_block;
+  bench.write("block.lua", text.substr(0, text.find("analysis")) + "analysis { kind = 'tilt', direction = 'y' }\n");
+  REQUIRE(bench.erbs({"limit", scene}) == 0);
+  CHECK(contains(bench.said, "lambda is the tangent of the tilt towards (0, 1, 0)"));
 }
 
 TEST_CASE("erbs limit says no tilting angle where a tilt is another load", "[limit][program]") {
