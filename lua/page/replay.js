@@ -86,7 +86,7 @@ export class Replay {
   }
 
   // What a view shows: the corners of the box of all blocks that move, at rest, and of the box in which nearly all of them end, unless
-  // that is far away.
+  // that is far away. The middle half of them may end farther away, so that a fall as a whole does not leave the view.
   #frameView() {
     const rest = new THREE.Box3(), end = new THREE.Box3(), {motion} = this, moving = motion.moving.length ? motion.moving : [...run.blocks.keys()];
     let radius = 0;  // m, mean of the blocks
@@ -94,12 +94,14 @@ export class Replay {
       const box = boxOf(b);
       rest.union(box), radius += box.getSize(new THREE.Vector3()).length() / 2 / moving.length;
     }
-    const reach = rest.clone().expandByScalar(0.6 * rest.getSize(new THREE.Vector3()).length()), out = Math.floor(moving.length / 50);
+    const size = rest.getSize(new THREE.Vector3()).length(), out = Math.floor(moving.length / 50);
+    const reach = rest.clone().expandByScalar(0.6 * size), far = rest.clone().expandByScalar(10 * size);
     for (let axis = 0; axis < 3; ++axis) {
       const ends = moving.map((b) => motion.poses[motion.at(b, motion.nframe - 1) + axis]).filter(Number.isFinite).sort((a, b) => a - b);
       if (!ends.length) continue;
-      const x = 'xyz'[axis];
-      end.min[x] = Math.max(reach.min[x], ends[out]) - radius, end.max[x] = Math.min(reach.max[x], ends[ends.length - 1 - out]) + radius;
+      const x = 'xyz'[axis], quarter = Math.floor((ends.length - 1) / 4), [low, high] = [ends[quarter], ends[ends.length - 1 - quarter]];
+      end.min[x] = Math.max(far.min[x], Math.min(low, Math.max(reach.min[x], ends[out]))) - radius;
+      end.max[x] = Math.min(far.max[x], Math.max(high, Math.min(reach.max[x], ends[ends.length - 1 - out]))) + radius;
     }
     this.seen = [rest, end].flatMap((box) => (box.isEmpty() ? [] : corners(box)));
     const box = new THREE.Box3().setFromPoints(this.seen);

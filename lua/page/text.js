@@ -30,19 +30,20 @@ function verdictCard(metrics) {
     return card(
         'warn', 'Verdict', 'No result', ['The run did not end: its folder has no metrics.json. The frames written until then are shown.']);
   const {collapse = {}} = metrics, lines = [];
+  const diverged = metrics.status === 'diverged', ended = ['completed', 'inaccurate'].includes(metrics.status);
   if (collapse.course) lines.push(`Course: ${collapse.course}`);
-  if (collapse.mechanism?.summary) lines.push(`Mechanism: ${collapse.mechanism.summary}`);
+  if (collapse.mechanism?.summary && !diverged) lines.push(`Mechanism: ${collapse.mechanism.summary}`);
   if (collapse.fallen_fraction !== undefined) lines.push(`${short(100 * collapse.fallen_fraction)} % of the mass has fallen by the end`);
   lines.push(`${metrics.joints_broken} of ${metrics.joints} joints broken; ${metrics.blocks} blocks`);
   const checks = metrics.expectations ?? {};
   if (checks.passed + checks.failed) lines.push(`Expectations of the scene: ${checks.passed} met, ${checks.failed} not`);
-  const ended = metrics.status === 'completed' ? '' : ` (run ${metrics.status})`;
-  // A push, and what does not stand under its own weight, have no time of collapse.
-  const lead = !collapse.collapsed ? 'Does not collapse' :
+  const how = metrics.status === 'completed' ? '' : ` (run ${metrics.status})`;
+  // A push, and what does not stand under its own weight, have no time of collapse. What has not come to its end may still collapse.
+  const lead = !collapse.collapsed ? (ended ? 'Does not collapse' : diverged ? 'No verdict' : 'No collapse so far') :
       run.collapse_when            ? `Collapses ${run.collapse_when}` :
       collapse.under_gravity       ? 'Does not stand under its own weight' :
                                      'Collapses';
-  return card(collapse.collapsed ? 'bad' : 'good', 'Verdict', lead + ended, lines);
+  return card(collapse.collapsed ? 'bad' : metrics.status === 'completed' ? 'good' : 'warn', 'Verdict', lead + how, lines);
 }
 
 function trustCard(metrics) {
@@ -55,7 +56,7 @@ function trustCard(metrics) {
   const lines = [
     `Largest energy residual ${short(t.energy_residual)} of all energy, at ${short(t.energy_residual_time_s ?? 0)} s`,
     `Penetration at most ${percent(t.max_penetration_relative)} of a block's smallest edge`,
-    t.dt_margin > 0 ? `Time step at most ${short(t.dt_margin)} of its limit` : 'Nothing limits the time step',
+    ...(t.dt_margin > 0 ? [`Time step at most ${short(t.dt_margin)} of its limit`] : bad ? [] : ['Nothing limits the time step']),
     `Inner forces balance but for ${short(t.momentum_residual ?? 0)} of their sum`
   ];
   if (t.sinking_share > 0) lines.push(`Deepening penetration in ${percent(t.sinking_share)} of steps`);

@@ -128,6 +128,20 @@ TEST_CASE("a browser opens the page of a collapse that has no time", "[report][b
   CHECK(code == 0);
 }
 
+TEST_CASE("the page of a run that broke off does not say that it stands", "[report][browser]") {
+  if (!page_is_built() || !browser_is_there()) return;
+  Bench bench;
+  REQUIRE(bench.run(titled_pier(1)) == 0);
+  Json metrics = read_json(bench.out() + "/metrics.json");
+  metrics["collapse"]["collapsed"] = false, metrics["status"] = GENERATE("interrupted", "diverged");
+  write_json(bench.out() + "/metrics.json", metrics);
+  REQUIRE(bench.erbs({"report", bench.out()}) == 0);
+  const std::string log = (bench.folder / "browser.log").string();
+  const int code = wait_for(start({"node", test::in_source("/tests/page/browser.mjs"), bench.out() + "/report.html"}, log));
+  INFO(text_of(log));
+  CHECK(code == 0);
+}
+
 TEST_CASE("the page of a push tells its multiplier and its states, which a browser replays", "[report][browser]") {
   if (!page_is_built()) return;
   Bench bench;
