@@ -155,7 +155,7 @@ std::string status_of(const std::string& folder) { return metrics_of(folder).val
 
 std::vector<ColumnPair> pairs_of(const CompareCommand& command, bool of_run) {
   const std::string &run = command.words[0], &reference = command.words[1];
-  const CsvTable own = read_histories(run), other = of_run ? read_histories(reference) : read_csv(reference);
+  const CsvTable own = read_histories(run), other = of_run ? read_histories(reference) : read_measured_csv(reference);
   const std::string path = of_run ? run_file(reference, "histories.csv") : reference;
   if (!of_run || !command.columns.empty() || has_response_of(own, other)) return pair_columns(own, other, command.columns, path);
   if (!command.output.quiet) say("the histories have no response in common: energies are compared\n");

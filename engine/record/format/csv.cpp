@@ -199,8 +199,9 @@ const std::vector<double>& CsvTable::column(std::string_view name) const {
   return columns[std::size_t(i)];
 }
 
-CsvTable read_csv(const std::string& path) {
-  const std::string all = read_all(path);
+namespace {
+
+CsvTable table_of(const std::string& all, const std::string& path) {
   CsvTable table;
   std::size_t at = 0;
   for (int line = 1; at < all.size(); ++line) {
@@ -230,6 +231,17 @@ CsvTable read_csv(const std::string& path) {
   }
   if (table.names.empty()) throw Error("is empty: its first line should name its columns", {path, 0});
   return table;
+}
+
+}  // namespace
+
+CsvTable read_csv(const std::string& path) { return table_of(read_all(path), path); }
+
+CsvTable read_measured_csv(const std::string& path) {
+  const std::string all = read_all(path) + "\n", head = all.substr(0, all.find('\n'));
+  if (head.find(',') == std::string::npos && head.find_first_of(";\t") != std::string::npos)
+    throw Error("its columns are separated by semicolons or tabs; write commas between them, and points in numbers", {path, 1});
+  return table_of(all, path);
 }
 
 }  // namespace erbs

@@ -52,5 +52,7 @@ std::string csv_line(const std::vector<std::string>& cells);
 
 // Ignores an incomplete last line: the writer was killed or is still writing.
 CsvTable read_csv(const std::string& path);
+// Of another program, which may leave out the end of the last line.
+CsvTable read_measured_csv(const std::string& path);
 
 }  // namespace erbs

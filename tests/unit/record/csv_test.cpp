@@ -53,6 +53,17 @@ TEST_CASE("a torn last line is left out, a short row is a mistake with its line"
   CHECK_THROWS_WITH(read_csv(path), Catch::Contains("a.csv:3"));
 }
 
+TEST_CASE("a table of another program keeps a last line without an end, and says so where commas are missing", "[record][csv]") {
+  const test::Scratch scratch("measured");
+  const std::string path = csv_in(scratch);
+  std::ofstream(path) << "time_s,a\n0,1\n1,2\n2,3";
+  CHECK(read_measured_csv(path).column("a") == std::vector<double>{1, 2, 3});
+  std::ofstream(path) << "time_s,a\r\n0,1\r\n";
+  CHECK(read_measured_csv(path).column("a") == std::vector<double>{1});
+  std::ofstream(path) << "time_s;a\n0;1,5\n";
+  CHECK_THROWS_WITH(read_measured_csv(path), Catch::Contains("semicolons"));
+}
+
 TEST_CASE("a resumed table is that of one uninterrupted run", "[record][csv]") {
   const test::Scratch scratch("resume");
   const std::string path = csv_in(scratch);
