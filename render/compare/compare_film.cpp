@@ -8,7 +8,6 @@
 #include <future>
 #include <memory>
 
-#include "engine/base/correlation.h"
 #include "engine/base/error.h"
 #include "engine/base/system/affinity.h"
 #include "render/compare/films.h"
@@ -73,7 +72,10 @@ struct SignalMeter {
   Gray last;
   void add(const Image& image, double t, double step) {
     Gray now = gray_of(image);
-    if (!last.v.empty()) signal.t.push_back(t - 0.5 * step), signal.y.push_back(mean_difference(last, now) / step);
+    if (!last.v.empty()) {
+      signal.t.push_back(t - 0.5 * step), signal.y.push_back(mean_difference(last, now) / step);
+      signal.where.push_back(changes_of_squares(last, now));
+    }
     last = std::move(now);
   }
 };
@@ -120,29 +122,6 @@ MotionSignal signal_of_run(const RunDrawer& drawer, Workers& workers, int factor
     return !stop;
   });
   return meter.signal;
-}
-
-// Films of tests are often slow motion, and do not say so. `slow`: as given.
-void try_paces(FilmErrors& errors, double slow, const Samples& run, const Samples& film, double reach) {
-  double best = doubtful;
-  for (const double pace : {0.5, 1.5, 2.0, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0, 12.0, 16.0, 20.0}) {
-    Samples faster = film;
-    for (double& t : faster.t) t /= pace;
-    if (const double correlation = lag_of(run, faster, reach).correlation; correlation > best)
-      best = errors.better_correlation = correlation, errors.better_slow = slow * pace;
-  }
-}
-
-void align(FilmErrors& errors, const FilmComparison& wish, double slow) {
-  const Samples run{errors.run.t, errors.run.y}, film{errors.film.t, errors.film.y};
-  const Lag found = lag_of(run, film, wish.reach);
-  errors.correlation = found.correlation;
-  if (wish.align == "correlation" && !(found.correlation >= doubtful)) try_paces(errors, slow, run, film, wish.reach);
-  if (wish.align == "correlation") errors.lag = found.lag, errors.at_edge = found.at_edge;
-  if (wish.align == "first-motion") errors.lag = first_motion(run) - first_motion(film);
-  if (!std::isfinite(errors.lag) || (wish.align == "correlation" && !std::isfinite(found.correlation)))
-    throw Error("nothing moves in it, or it has no time in common with the run, so that the times cannot be aligned; add --align none",
-                {wish.film});
 }
 
 // In the size of the first picture.
@@ -305,7 +284,7 @@ bool compare_film(const Run& run, const MotionReader& reader, Movie movie, const
   if (stop) return false;
   // The last picture or two of a whole film may be counted otherwise.
   if (const std::size_t read = errors.film.t.size() + 1; read + 2 < film.promised()) errors.missing = film.promised() - read;
-  align(errors, wish, movie.slow);
+  align_film(errors, wish, movie.slow, reader.times());
   std::optional<ComparisonFilms> films;
   if (!measure(drawer, workers, film, pictures, errors, wish, films, stop)) return false;
   films->end();

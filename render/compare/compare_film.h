@@ -32,7 +32,8 @@ struct FrameErrors {
 // Signals of motion: mean absolute change of brightness a second between two pictures, at their mean time. They are measured on pictures
 // of at most 320 pixels in width.
 struct MotionSignal {
-  std::vector<double> t, y;  // s, 1/s of brightness 0..255
+  std::vector<double> t, y;               // s, 1/s of brightness 0..255
+  std::vector<std::vector<float>> where;  // change of each square of the picture, 0..255 [pictures][squares]
 };
 
 struct FilmErrors {
@@ -53,6 +54,9 @@ struct FilmErrors {
 
 // Writes compare_side.mp4, compare_blend.mp4, compare_difference.mp4, frames.json and frames.svg. False if `stop` was set meanwhile.
 bool compare_film(const Run& run, const MotionReader& reader, Movie movie, const FilmComparison& wish, const std::atomic<bool>& stop);
+
+// Sets the lag of the signals of run and film. `slow`: as given; `recorded`: times of the frames of the run (s).
+void align_film(FilmErrors& errors, const FilmComparison& wish, double slow, const std::vector<double>& recorded);
 
 void draw_film_errors(const FilmErrors& errors, const FilmComparison& wish);  // frames.svg
 // frames.json, and what is printed.

@@ -78,6 +78,24 @@ double mean_difference(const Gray& a, const Gray& b) {
   return a.v.empty() ? 0 : sum / double(a.v.size());
 }
 
+std::vector<float> changes_of_squares(const Gray& a, const Gray& b) {
+  constexpr int side = 8;
+  std::vector<float> squares;
+  for (int top = 0; top + side <= a.height; top += side)
+    for (int left = 0; left + side <= a.width; left += side) {
+      float sum = 0;
+      for (int y = top; y < top + side; ++y)
+        for (int i = y * a.width + left; i < y * a.width + left + side; ++i) sum += std::abs(a.v[std::size_t(i)] - b.v[std::size_t(i)]);
+      squares.push_back(sum / (side * side));
+    }
+  if (squares.empty()) return squares;
+  std::vector<float> sorted = squares;
+  const auto middle = sorted.begin() + std::ptrdiff_t(sorted.size() / 2);
+  std::nth_element(sorted.begin(), middle, sorted.end());
+  for (float& square : squares) square = std::max(0.0F, square - *middle);
+  return squares;
+}
+
 Image row_medians(const Image& image) {
   Image background(image.width, image.height);
   std::vector<std::uint8_t> row(std::size_t(image.width));

@@ -18,6 +18,10 @@ Image reduced(const Image& image, int factor);
 
 double mean_difference(const Gray& a, const Gray& b);  // of brightness, 0..255
 
+// By how much the same of each square of 8 pixels a side exceeds that of most squares, which is noise; rows from the top. What does not
+// fill a square is left out.
+std::vector<float> changes_of_squares(const Gray& a, const Gray& b);
+
 // A picture whose rows each have the median colour of that row: the background of a frame in which the structure fills less than half of
 // every row.
 Image row_medians(const Image& image);

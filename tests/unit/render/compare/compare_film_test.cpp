@@ -60,6 +60,10 @@ TEST_CASE("motion and silhouettes of pictures are measured", "[render][compare]"
   CHECK(overlap(silhouette(square(50, 40), background), silhouette(square(50, 40), background)) == 1);
   CHECK(overlap(silhouette(square(50, 40), background), silhouette(square(60, 40), background)) == Approx(0.6));
   CHECK(reduced(square(50, 40), 4).width == 40);
+  const std::vector<float> changes = changes_of_squares(gray_of(square(48, 40)), gray_of(square(56, 40)));
+  REQUIRE(changes.size() == 20 * 15);
+  CHECK(changes[5 * 20 + 6] > 50);  // the column of squares that the square leaves
+  CHECK(changes[5 * 20 + 5] == 0);
   CHECK(difference_of(square(50, 40), square(50, 40)).pixel(60, 50)[0] == 245);
 }
 
@@ -107,6 +111,25 @@ TEST_CASE("a film in slow motion is recognised", "[render][compare][program]") {
   CHECK(films.bench.erbs({"compare", films.run, film, "-o", place + "_slow", "--film-background", "drawn", "--slow", slow, "--expect",
                           "iou>.9,shift<.02"}) == 0);
   CHECK(films.bench.said.find("doubtful") == std::string::npos);
+}
+
+TEST_CASE("a film whose shadows the run does not show has no lag either, whether or not its pictures are repeated",
+          "[render][compare][program]") {
+  Films films;
+  const std::string film = films.film(0, "25", "320x180"), twice = (films.bench.folder / "twice.mp4").string(),
+                    slow = (films.bench.folder / "slow.mp4").string(), place = (films.bench.folder / "place").string();
+  const auto lag = [&] { return read_json(place + "/frames.json")["alignment"]["lag_s"].get<double>(); };
+  CHECK(films.bench.erbs({"compare", films.run, film, "-o", place, "--expect", "iou>.95"}) == 0);
+  CHECK(lag() == Approx(0).margin(0.004));
+  // Each picture is shown once more, half a picture late in the mean.
+  REQUIRE(wait_for(start({"ffmpeg", "-y", "-loglevel", "error", "-i", film, "-r", "50", twice})) == 0);
+  CHECK(films.bench.erbs({"compare", films.run, twice, "-o", place, "--force"}) == 0);
+  CHECK(lag() == Approx(-0.01).margin(0.004));
+  INFO(films.bench.said);
+  CHECK(films.bench.said.find("doubtful") == std::string::npos);
+  REQUIRE(wait_for(start({"ffmpeg", "-y", "-loglevel", "error", "-i", film, "-vf", "setpts=4*PTS", "-r", "25", slow})) == 0);
+  CHECK(films.bench.erbs({"compare", films.run, slow, "-o", place, "--force"}) == 0);
+  CHECK(films.bench.said.find("with --slow 4 they correlate by") != std::string::npos);
 }
 
 TEST_CASE("a run with another peak is told apart from noise of H.264", "[render][compare][program]") {
