@@ -83,6 +83,7 @@ Overlay::Overlay(const Run& run, const Show& show, const Look& look, const std::
       camera_(camera),
       slow_(slow),
       unit_(look.unit > 0 ? look.unit : overlay_unit(look.height)),
+      legend_top_(below_title * unit_),
       regular_(Font::Face::regular),
       bold_(Font::Face::bold) {
   std::replace(camera_.begin(), camera_.end(), '_', ' ');
@@ -125,7 +126,8 @@ void Overlay::draw_in_tile(Image& image, double t, const View& view) {
   regular_.draw(image, camera_, margin * u, 29 * u, size, text_ink);
 }
 
-void Overlay::draw_around_tiles(Image& image, double t, const std::vector<MarkRow>& marks) const {
+void Overlay::draw_around_tiles(Image& image, double t, const std::vector<MarkRow>& marks, double legend_top) {
+  legend_top_ = legend_top;
   draw_title(image, t);
   draw_legends(image, marks);
   if (!strip_.empty()) draw_record(image, t);
@@ -260,7 +262,7 @@ std::string Overlay::map_number(double share) const {
 }
 
 double Overlay::draw_map(Image& image) const {
-  const double u = unit_, right = image.width - margin * u, size = 13 * u, width = 170 * u, left = right - width, y = 78 * u;
+  const double u = unit_, right = image.width - margin * u, size = 13 * u, width = 170 * u, left = right - width, y = legend_top_ + 18 * u;
   const char* const remark = is_stress(look_.coloring) && show_.replaced ? "0 where contact has replaced a joint" : "";
   const double small = legible(11, u), wide = std::max(width, regular_.width(remark, small)), more = *remark != '\0' ? 17 * u : 0;
   fill_box(image, right - wide - 10 * u, y - 18 * u, right + 10 * u, y + 36 * u + more, panel);
@@ -284,7 +286,7 @@ double Overlay::draw_map(Image& image) const {
 double Overlay::draw_legend(Image& image) const {
   if (look_.coloring == Coloring::damage || is_quantity(look_.coloring)) return draw_map(image);
   const double u = unit_, right = image.width - margin * u, size = 13 * u;
-  double y = 78 * u;
+  double y = legend_top_ + 18 * u;
   const bool by_state = look_.coloring == Coloring::joint_state;
   struct Row {
     std::string name;

@@ -15,7 +15,7 @@ double overlay_top(int height);
 double overlay_bottom(int height, bool with_record);
 // Of a legend of four rows at the upper right, with its margin; height from the part that the camera aims at on; in rows of a picture with
 // 720 rows.
-constexpr double legend_width = 214, legend_height = 100;
+constexpr double legend_width = 214, legend_height = 100, below_title = 60;
 
 std::string length_text(double m);  // "1.5 m", "20 cm", "3 mm"
 
@@ -27,7 +27,8 @@ class Overlay {
   void draw(Image& image, double t, const View& view, const std::vector<MarkRow>& marks);
   // Of a picture of several cameras: what belongs to one tile, and what belongs to all of them.
   void draw_in_tile(Image& image, double t, const View& view);
-  void draw_around_tiles(Image& image, double t, const std::vector<MarkRow>& marks) const;
+  // `legend_top`: px, row below which the legend has room.
+  void draw_around_tiles(Image& image, double t, const std::vector<MarkRow>& marks, double legend_top);
 
  private:
   void see(const View& view);
@@ -48,6 +49,7 @@ class Overlay {
   Eigen::Matrix3f turn_ = Eigen::Matrix3f::Identity();  // rotation from world to picture: right, up, towards the eye
   double pixel_ = 1;                                    // m, size of a pixel at the distance of the camera's target
   double slow_, unit_;                                  // unit_: pixels per row of a picture with 720 rows
+  double legend_top_;                                   // px
   Font regular_, bold_;
   struct Reach {
     double low = 0, high = 0;

@@ -73,6 +73,11 @@ struct Tiles {
     const int column = static_cast<int>(k) % columns, row = static_cast<int>(k) / columns;
     return {column * look.width, static_cast<int>(top) + row * look.height};
   }
+  // px, row below which the legend has room: in the tile that no camera fills; below the title where there is none.
+  double legend_top(double unit) const {
+    const auto all = static_cast<std::size_t>(columns * rows);
+    return shots.size() < all ? corner(all - 1).second + 8 * unit : below_title * unit;
+  }
 };
 
 Tiles tiles_of(const Look& whole, std::size_t cameras) {
@@ -138,7 +143,8 @@ Workers::Draw drawer(const Run& run, const Show& show, const Movie& movie, const
       if (k >= static_cast<std::size_t>(tiles.columns))
         fill_box(image, left, top - thin, left + tile.width, top + thin, {252, 252, 252, 1});
     }
-    if (tiles.split() && l.overlay) frame_of_tiles->draw_around_tiles(image, frame.t, marks.legend);
+    if (tiles.split() && l.overlay)
+      frame_of_tiles->draw_around_tiles(image, frame.t, marks.legend, tiles.legend_top(overlay_unit(l.height)));
     write_png(files.picture(index, frame.t), image, texts_of(run));
     return image;
   };

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 
+#include "render/image/image.h"
 #include "tests/unit/lua/bench.h"
 
 using namespace erbs;
@@ -66,7 +67,11 @@ TEST_CASE("a camera of one's own looks where it should, or says why it cannot", 
   CHECK(contains(bench.said, "reaches beyond the run"));
   CHECK(render({"--fit"}) == 0);
   CHECK(render({"--split", "--camera", "from_-x,from_-y,from_above", "--size", "480x360"}) == 0);
-  CHECK(fs::exists(fs::path(bench.out()) / "frames/split_t0.000s.png"));
+  const erbs::render::Image split = erbs::render::read_png(bench.out() + "/frames/split_t0.000s.png");
+  int ink = 0;
+  for (int y = 200; y < 340; ++y)
+    for (int x = 250; x < 470; ++x) ink += split.pixel(x, y)[0] < 150 ? 1 : 0;
+  CHECK(ink > 20);  // the legend stands in the tile that no camera fills, and covers none of the others
   CHECK(render({"--path", "0:3,2,3:0,0,0; 1:2,2,3:0,0,0"}) == 0);
   CHECK(render({"--eye=1,-2,1", "--fit"}) == 0);
   CHECK(render({"--eye=0,0,5", "--target=0,0,0"}) == 0);  // straight down
