@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include "engine/analysis/start/load_warnings.h"
@@ -153,6 +154,26 @@ void refuse_lost_poses(const Scene& scene, const Prepared& p) {
   }
 }
 
+// motion.h5 keeps poses as floats, whose steps grow with the distance from the origin. The run itself does not depend on it.
+void warn_of_far_blocks(const Scene& scene, std::vector<std::string>& warnings) {
+  double worst = 0.01, far = 0;
+  const Block* which = nullptr;
+  for (const Block& block : scene.blocks) {
+    Eigen::AlignedBox3d box;
+    for (const Polyhedron& part : block.parts)
+      for (const Vec3& v : part.vertices) box.extend(v);
+    if (block.fixed || box.isEmpty()) continue;
+    const double away = std::max(box.min().cwiseAbs().maxCoeff(), box.max().cwiseAbs().maxCoeff());
+    const double share = std::numeric_limits<float>::epsilon() * away / box.sizes().minCoeff();
+    if (share > worst) worst = share, far = away, which = &block;
+  }
+  if (which != nullptr)
+    warnings.push_back(fmt::format(
+        "block '{}' lies {:.3g} m from the origin, where the poses that pictures and exports are made of have steps of up to {:.2g} mm; "
+        "build the scene nearer to the origin",
+        which->name, far, 1e3 * std::numeric_limits<float>::epsilon() * far));
+}
+
 // Refuses parts that exceed the limits of contact shapes. The check is here, not at the start of a run, so that `check` refuses the same
 // scenes as `run`.
 void check_shapes(const Scene& scene, const Model& m) {
@@ -180,6 +201,7 @@ Prepared prepare(const Scene& scene, bool allow_unstable) {
   check_shapes(scene, p.model);
   find_islands(p.model, p.state);
   refuse_lost_poses(scene, p);
+  warn_of_far_blocks(scene, p.warnings);
   if (!scene.push.quasi_static())
     for (std::string& warning : warnings_of_loads(scene, p.model)) p.warnings.push_back(std::move(warning));
   update_all_references(p.model, p.state);

@@ -228,3 +228,14 @@ TEST_CASE("a wall on a table that is tilted from the start is at rest on it", "[
     CHECK(run.model.gravity.x() == 0);
   }
 }
+
+TEST_CASE("a scene so far from the origin that pictures of it are coarse is told", "[analysis]") {
+  const auto told = [](double x) {
+    const std::string place = fmt::format("{{ {}, 0, 0 }}", x);
+    const Scene scene = test::small_wall(
+        fmt::format("analysis{{ duration = 1 }} box{{ name = 'far', free = true, size = {{ .2, .1, .1 }}, at = {} }}", place));
+    return mentions(prepare(scene, false).warnings, "have steps of");
+  };
+  CHECK_FALSE(told(1000));
+  CHECK(told(20000));  // steps of 2.4 mm
+}
