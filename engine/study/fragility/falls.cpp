@@ -20,7 +20,6 @@ std::array<double, 2> mean_vector(const Falls& falls) {
   return sum;
 }
 
-// From blue at the lowest intensity to red at the highest.
 // Dark to bright, from the lowest intensity to the highest.
 std::string color_of(std::size_t i, std::size_t n) {
   const double t = n > 1 ? double(i) / double(n - 1) : 0.5;
@@ -33,9 +32,10 @@ std::vector<Falls> drawn_lines(const std::vector<Group>& groups) {
   std::vector<Falls> all = falls_of(groups), out;
   if (all.size() <= most_lines) return all;
   for (Falls& one : all) {
-    if (out.empty() || out.back().group != one.group) out.push_back({one.group, 0, 0, {}, {}});
+    if (out.empty() || out.back().group != one.group) out.push_back({one.group, 0, 0, 0, {}, {}});
     Falls& sum = out.back();
     sum.runs += one.runs;
+    sum.collapsed += one.collapsed;
     sum.times.insert(sum.times.end(), one.times.begin(), one.times.end());
     sum.towards.insert(sum.towards.end(), one.towards.begin(), one.towards.end());
   }
@@ -47,7 +47,7 @@ std::vector<Falls> drawn_lines(const std::vector<Group>& groups) {
 std::string title_of(const Falls& falls, const ShownIntensity& shown) {
   std::string text = falls.group;
   if (falls.im > 0) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", shown.words, shown.number(falls.im));
-  return fmt::format("{}{}{} of {} fall", text, text.empty() ? "" : ": ", falls.times.size(), falls.runs);
+  return fmt::format("{}{}{} of {} fall", text, text.empty() ? "" : ": ", falls.collapsed, falls.runs);
 }
 
 // Share of all runs that have fallen by a time, as steps up to the right edge.
@@ -132,12 +132,13 @@ std::vector<Falls> falls_of(const std::vector<Group>& groups) {
   std::vector<Falls> out;
   for (const Group& group : groups)
     for (const double im : levels_of(group)) {
-      Falls falls{group.name, im, 0, {}, {}};
+      Falls falls{group.name, im, 0, 0, {}, {}};
       for (const Case& one : group.cases)
         for (const Run& run : one.runs) {
           if (run.im != im) continue;
           ++falls.runs;
           if (!run.collapsed) continue;
+          ++falls.collapsed;
           if (std::isfinite(run.time)) falls.times.push_back(run.time);
           if (std::isfinite(run.direction[0]) && std::isfinite(run.direction[1])) falls.towards.push_back(run.direction);
         }
@@ -152,7 +153,7 @@ void write_falls(const Sweep& sweep, const std::vector<Group>& groups) {
                                "mean_direction_deg", "concentration", "share_plus_x", "share_plus_y", "share_minus_x", "share_minus_y"});
   const auto cell = [](double x) { return std::isfinite(x) ? fmt::format("{}", x) : std::string(); };
   for (const Falls& falls : falls_of(groups)) {
-    std::vector<std::string> row{falls.group, cell(falls.im), std::to_string(falls.runs), std::to_string(falls.times.size())};
+    std::vector<std::string> row{falls.group, cell(falls.im), std::to_string(falls.runs), std::to_string(falls.collapsed)};
     for (const double share : {0.16, 0.5, 0.84}) row.push_back(falls.times.empty() ? "" : cell(fractile(falls.times, share)));
     row.push_back(std::to_string(falls.towards.size()));
     row.push_back(cell(falls.mean_direction()));

@@ -12,6 +12,7 @@ struct Falls {
   std::string group;
   double im = 0;
   int runs = 0;                                // standing ones too
+  int collapsed = 0;                           // those without a time too, which do not stand under their own weight
   std::vector<double> times;                   // s, rising
   std::vector<std::array<double, 2>> towards;  // unit vectors in plan of those that have a direction
 

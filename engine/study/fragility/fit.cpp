@@ -122,7 +122,7 @@ std::string words(const Fit& fit, const std::string& unit, double factor) {
     case FitEnd::fitted:
       return "";
     case FitEnd::empty:
-      return "no run has answered; see the reasons in runs.csv";
+      return "no run counts";
     case FitEnd::none:
       return fmt::format("none of {} collapses up to {}: the median lies above; raise the intensities", fit.observations, im(fit.theta_lo));
     case FitEnd::all:

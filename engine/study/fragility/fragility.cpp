@@ -27,6 +27,8 @@ Fragility fragility_of(const Group& group, const std::string& method, const Frag
     if (n > 0) say(fmt::format("{} run{} left out: {}", n, n == 1 ? "" : "s", why));
   };
   leave_out(group.left_out, "no answer, see the reasons in runs.csv");
+  leave_out(group.untold,
+            fmt::format("{} has no number there; name a key that is 1 or 0, or a number to lay above against", plan.collapse));
   leave_out(group.unshaken, "at intensity 0, where any fit is 0");
   leave_out(group.negative, fmt::format("{} is below 0, and an intensity lies above", plan.im));
   leave_out(group.wordy, fmt::format("{} is no number; take an im that is one", plan.im));

@@ -7,6 +7,7 @@
 #include <fstream>
 #include <map>
 #include <set>
+#include <tuple>
 
 #include "engine/base/units.h"
 #include "engine/record/format/csv.h"
@@ -55,16 +56,20 @@ std::string joined(const std::vector<std::string>& cells, const std::vector<std:
   return out;
 }
 
-// Damage of a case at an intensity: linear from zero through its runs. None beyond the last run of a standing case.
+// Damage of a case at an intensity: linear from zero through its runs, of several at one intensity the worst. None beyond the last run of
+// a standing case.
 double damage_at(const Case& one, std::size_t k, double im) {
   double x0 = 0, y0 = 0;
-  for (const Run& run : one.runs) {
-    const double y = run.collapsed ? infinite : run.damage[k];
+  for (std::size_t i = 0; i < one.runs.size(); ++i) {
+    const Run& run = one.runs[i];
+    const auto damage = [&](std::size_t at) { return one.runs[at].collapsed ? infinite : one.runs[at].damage[k]; };
+    double y = damage(i);
+    for (; i + 1 < one.runs.size() && one.runs[i + 1].im == run.im; ++i) y = std::fmax(y, damage(i + 1));
     if (im <= run.im) {
       if (im == run.im || std::isnan(y)) return y;
       return std::isinf(y) ? infinite : y0 + (y - y0) * (im - x0) / (run.im - x0);
     }
-    if (run.collapsed) return infinite;
+    if (std::isinf(y)) return infinite;
     x0 = run.im, y0 = y;
   }
   return std::nan("");
@@ -73,7 +78,8 @@ double damage_at(const Case& one, std::size_t k, double im) {
 // Which count of the group a run belongs to that has no part in a fit; none if it has one.
 int* reason_to_leave(Group& group, bool completed, double im, double collapse, bool above) {
   if (im == 0) return &group.unshaken;
-  if (!completed || std::isnan(collapse)) return &group.left_out;
+  if (!completed) return &group.left_out;
+  if (std::isnan(collapse)) return &group.untold;
   if (std::isnan(im)) return &group.wordy;
   if (im < 0) return &group.negative;
   if (!above && collapse != 0 && collapse != 1) return &group.unclear;
@@ -84,13 +90,10 @@ int* reason_to_leave(Group& group, bool completed, double im, double collapse, b
 
 Interval Case::capacity() const {
   Interval out;
-  for (const Run& run : runs) {
-    if (run.collapsed) {
-      out.hi = run.im;
-      break;
-    }
-    out.lo = run.im;
-  }
+  if (const auto first = std::find_if(runs.begin(), runs.end(), [](const Run& run) { return run.collapsed; }); first != runs.end())
+    out.hi = first->im;
+  for (const Run& run : runs)
+    if (!run.collapsed && run.im < out.hi) out.lo = std::max(out.lo, run.im);
   return out;
 }
 
@@ -114,7 +117,8 @@ bool Group::incremental() const {
 std::vector<Group> read_groups(const Sweep& sweep) {
   const FragilityPlan& wanted = *sweep.plan.fragility;
   const Columns at = columns_of(sweep);
-  std::map<std::string, std::map<std::string, std::map<double, Run>>> sorted;  // by group, case, intensity
+  // By group, case, and what orders the runs of a case: intensity, verdict and number. An intensity out of metrics.json may come twice.
+  std::map<std::string, std::map<std::string, std::map<std::tuple<double, bool, double>, Run>>> sorted;
   std::map<std::string, Group> counts;
   std::ifstream file(sweep.directory + "/" + runs_file);
   std::string line;
@@ -136,7 +140,8 @@ std::vector<Group> read_groups(const Sweep& sweep) {
     for (const std::size_t i : at.damage) run.damage.push_back(number_of(cells[i]));
     if (wanted.falls && run.collapsed)
       run.time = number_of(cells[at.fall[0]]), run.direction = {number_of(cells[at.fall[1]]), number_of(cells[at.fall[2]])};
-    cases[name].emplace(im, std::move(run));
+    const std::tuple<double, bool, double> place{im, run.collapsed, number_of(cells.front())};
+    cases[name].emplace(place, std::move(run));
   }
   std::vector<Group> out;
   for (auto& [name, cases] : sorted) {
@@ -144,7 +149,7 @@ std::vector<Group> read_groups(const Sweep& sweep) {
     group.name = name;
     for (auto& [of_case, runs] : cases) {
       group.cases.push_back({of_case, {}});
-      for (auto& [im, run] : runs) group.cases.back().runs.push_back(std::move(run));
+      for (auto& [place, run] : runs) group.cases.back().runs.push_back(std::move(run));
     }
     out.push_back(std::move(group));
   }

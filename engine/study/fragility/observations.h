@@ -31,6 +31,7 @@ struct Group {
   std::string name;  // values of FragilityPlan::by; "" without
   std::vector<Case> cases;
   int left_out = 0;  // runs without an answer
+  int untold = 0;    // runs in which the key that tells a collapse has no number
   int unshaken = 0;  // runs at intensity zero, where the probability is zero by any fit
   int negative = 0;  // runs at an intensity below zero
   int wordy = 0;     // runs whose intensity is no number

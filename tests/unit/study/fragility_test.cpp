@@ -170,6 +170,21 @@ TEST_CASE("fractiles count a collapse as infinite, and a case only as far as it 
   CHECK(group.single_runs().size() == 5);
 }
 
+TEST_CASE("runs of one case at one intensity all count", "[fragility]") {
+  // Sa of metrics.json may be the same for two scales: one run stands there, the other collapses.
+  const Case twice{"", {{1, false, {0.1}}, {2, false, {0.2}}, {2, true, {0.9}}, {3, true, {}}}};
+  CHECK(twice.capacity().lo == 1);
+  CHECK(twice.capacity().hi == 2);
+  const Case damaged{"", {{1, false, {0.1}}, {1, false, {0.3}}, {2, false, {0.5}}}};
+  Group group;
+  group.cases = {twice, damaged};
+  CHECK(group.single_runs().size() == 7);
+  const auto all = fractiles_of(group, 0);
+  REQUIRE(all.size() == 3);
+  CHECK(all[0].p50 == Approx(0.2));  // .1, and the worse of .1 and .3
+  CHECK(std::isinf(all[1].p84));
+}
+
 TEST_CASE("the tables of a study depend on its rows, not on their order", "[fragility]") {
   Sweep sweep;
   sweep.plan.axes = {{{"motion"}, {{std::string("a")}, {std::string("b")}, {std::string("c")}}, 0, 0, false, {}},
@@ -185,6 +200,8 @@ TEST_CASE("the tables of a study depend on its rows, not on their order", "[frag
       rows.push_back(csv_line({std::to_string(index++), motion, fmt::format("{}", pga), pga >= from ? "1" : "0",
                                fmt::format("{}", 0.1 * pga), "completed", "", "1", "1", "1", "here", "key"}));
   rows.push_back(csv_line({"9", "c", "2", "nan", "nan", "timeout", "slow", "1", "1", "1", "here", "key"}));
+  rows.push_back(csv_line({"10", "c", "3", "0", "0.7", "completed", "", "1", "1", "1", "here", "key"}));  // a second run at one intensity
+  rows.push_back(csv_line({"11", "c", "1", "word", "0.7", "completed", "", "1", "1", "1", "here", "key"}));
   const auto tables = [&](const std::vector<std::string>& lines) {
     const test::Folder folder;
     sweep.directory = folder.file("");
@@ -195,8 +212,8 @@ TEST_CASE("the tables of a study depend on its rows, not on their order", "[frag
     CHECK(found[0].method == "capacities");
     CHECK(found[0].fit.observations == 3);
     CHECK(found[0].fit.collapsed == 2);
-    CHECK(found[1].fit.observations == 9);
-    CHECK_THAT(found[0].words, Catch::Contains("1 run left out: no answer"));
+    CHECK(found[1].fit.observations == 10);
+    CHECK_THAT(found[0].words, Catch::Contains("1 run left out: no answer") && Catch::Contains("collapse.collapsed has no number there"));
     std::string all;
     for (const char* file : {"fragility.csv", "stripes.csv", "fractiles.csv"}) {
       std::ifstream in(sweep.directory + "/" + file);
@@ -227,6 +244,7 @@ TEST_CASE("falls of a study: fractiles of the time, mean and concentration of th
   CHECK(falls[0].concentration() == Approx((std::cos(pi / 6) + std::cos(pi / 3)) / 2));
   CHECK(quarters(falls[0]) == std::array<double, 4>{0.5, 0.25, 0, 0.25});
   CHECK(falls[1].runs == 4);
+  CHECK(falls[1].collapsed == 3);  // one without a time
   CHECK(falls[1].times.size() == 2);
   CHECK(falls[1].concentration() == Approx(0).margin(1e-12));
   CHECK(std::isnan(Falls{}.mean_direction()));
