@@ -59,7 +59,13 @@ void read_fragility(Arguments& table, study::Plan& plan) {
                         "metrics.json such as \"metrics.sa_t1\"",
                         out.im, std::get<std::string>(axis.rows.front()[k])));
   if (!out.along.empty()) need_param("along", out.along);
-  for (const std::string& name : out.by) need_param("by", name);
+  if (!out.along.empty() && out.along != out.im && (bisected || is_varied(out.im)))
+    table.mistake(fmt::format("along = \"{}\", and the intensity im = \"{}\" is itself a param; leave along out", out.along, out.im));
+  for (const std::string& name : out.by) {
+    need_param("by", name);
+    if (name == out.im || (!out.along.empty() && name == out.along))
+      table.mistake(fmt::format("by = \"{}\" is what grows within a case; name another param, or leave by out", name));
+  }
   if (out.along.empty() && is_varied(out.im)) out.along = out.im;
   if (plan.bisect && !bisected && !out.im.empty())
     table.mistake(
