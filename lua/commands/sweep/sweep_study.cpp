@@ -78,10 +78,11 @@ class Checker {
       }
       check_param(param, axis.place);
       const bool word = scene_.takes_word(param);
-      for (const auto& row : axis.rows)
-        if (std::holds_alternative<std::string>(row[k]) != word)
-          add(axis.place,
-              fmt::format("param \"{}\" of the scene takes {}, not {}", param, word ? "a word" : "a number", expression_of(row[k])));
+      const auto wrong = std::find_if(axis.rows.begin(), axis.rows.end(),
+                                      [&](const auto& row) { return std::holds_alternative<std::string>(row[k]) != word; });
+      if (wrong != axis.rows.end())  // one of a million rows says enough
+        add(axis.place,
+            fmt::format("param \"{}\" of the scene takes {}, not {}", param, word ? "a word" : "a number", expression_of((*wrong)[k])));
     }
   }
 
@@ -119,8 +120,10 @@ Json plan_json(const Plan& plan) {
   return j;
 }
 
-void add_inputs(Json& inputs, const Scene& scene) {
-  for (const auto& [file, hash] : scene.inputs) inputs[fs::path(file).filename().string()] = hash;
+// By their places beside the scene: two records may have one name in two folders, and the study may lie elsewhere tomorrow.
+void add_inputs(Json& inputs, const Scene& scene, const std::string& path) {
+  const fs::path folder = fs::absolute(path).lexically_normal().parent_path();
+  for (const auto& [file, hash] : scene.inputs) inputs[fs::absolute(file).lexically_normal().lexically_proximate(folder).string()] = hash;
 }
 
 // Loads the scene once with each word of an axis, such as each record: all files must be there, and their contents belong to the key.
@@ -133,7 +136,7 @@ void check_words(const Plan& plan, const std::string& scene, const SceneOptions&
         overrides.emplace_back(axis.params[k], expression_of(row[k]));
         Script script(script_options(options, true));
         try {
-          add_inputs(inputs, script.load(scene, overrides));
+          add_inputs(inputs, script.load(scene, overrides), scene);
         } catch (const std::exception& error) {
           throw Error(fmt::format("{} = {} does not do: {}", axis.params[k], expression_of(row[k]), error.what()), axis.place);
         }
@@ -186,7 +189,7 @@ SweepStudy read_sweep_study(const std::string& path, const SceneOptions& options
   scene.load(sweep.scene, fixed);
   Checker(plan, scene, fixed).check();
   Json inputs = Json::object();
-  add_inputs(inputs, scene.scene());
+  add_inputs(inputs, scene.scene(), sweep.scene);
   check_words(plan, sweep.scene, options, fixed, inputs);
   for (const std::string& param : varied_params(plan)) sweep.params.push_back(column(param, unit_of(scene.scene(), param)));
   for (const std::string& key : plan.collect) sweep.collected.push_back(collected_column(scene.scene(), key));

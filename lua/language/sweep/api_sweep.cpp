@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <lua5.4/lua.hpp>
+#include <set>
 
 #include "engine/base/spelling.h"
 #include "engine/base/text.h"
@@ -50,6 +51,17 @@ std::optional<Value> value_at_top(Call& call, const std::string& name) {
   return std::nullopt;
 }
 
+// The same point twice is the same run twice, and would count twice in a fit.
+void refuse_repeated(Call& call, const Axis& axis) {
+  std::set<std::vector<Value>> seen;
+  for (const std::vector<Value>& row : axis.rows) {
+    if (seen.insert(row).second) continue;
+    std::vector<std::string> words;
+    for (std::size_t k = 0; k < row.size(); ++k) words.push_back(axis.params[k] + " = " + study::expression_of(row[k]));
+    return call.mistake(fmt::format("{} is there twice; give it once", fmt::join(words, ", ")));
+  }
+}
+
 int grid(Call& call) {
   need_table(call, "grid{ amplitude = { 1, 2, 3 } }");
   std::vector<Axis> axes;
@@ -70,6 +82,7 @@ int grid(Call& call) {
       axis.rows.push_back({std::move(*value)});
     }
     lua_pop(call.lua, 1);
+    refuse_repeated(call, axis);
     axes.push_back(std::move(axis));
   }
   if (axes.empty()) call.mistake("it is empty; give the values of a param, such as grid{ amplitude = { 1, 2, 3 } }");
@@ -104,6 +117,7 @@ int list(Call& call) {
   }
   if (axis.rows.empty() || axis.params.empty())
     call.mistake("it is empty; give tables of values by the names of params, such as list{ { ft = 1e5, mu = .5 } }");
+  refuse_repeated(call, axis);
   return push_axes(call, {std::move(axis)});
 }
 
@@ -165,6 +179,8 @@ int records(Call& call) {
         "give scale, the param of the peak acceleration, together with scales, its values; or neither, and bisect that param");
   for (const std::string& name : names) files.rows.push_back({name});
   for (const double peak : peaks) scales.rows.push_back({peak});
+  refuse_repeated(call, files);
+  refuse_repeated(call, scales);
   std::vector<Axis> axes{std::move(files)};
   if (!peaks.empty()) axes.push_back(std::move(scales));
   return push_axes(call, std::move(axes));

@@ -129,3 +129,22 @@ TEST_CASE("a figure says what it leaves out, and shows twins about their mean", 
   REQUIRE(study.sweep("vary = { perturbations{ n = 6 }, grid{ h = { 1, 2, 3 } } }, collect = { 'metrics.double' }") == 0);
   CHECK_THAT(study.figure(), Catch::Contains("h [m]") && Catch::Contains("mean of the runs") && !Catch::Contains("perturbation"));
 }
+
+TEST_CASE("a record that changed is found out beside another of its name", "[sweep]") {
+  FolderStudy study;
+  study.write("tiny.lua",
+              "local motion = param('motion', 'one/a.csv')\nmaterial{ name = 'stone', density = 2000 }\n"
+              "box{ name = 'b', size = { .3, .3, 1 }, at = { 0, 0, 5 }, free = true }\n"
+              "ground_motion{ wave = record{ file = motion, unit = 'm/s2' } }\n"
+              "analysis{ duration = .002, start = 'rest', stop_after_collapse = 1e6 }\n");
+  for (const char* side : {"one", "two"}) {
+    std::filesystem::create_directories(study.folder / side);
+    study.write(std::string(side) + "/a.csv", "0,0\n0.01,1\n0.02,0\n");
+  }
+  const std::string text = "vary = grid{ motion = { 'one/a.csv', 'two/a.csv' } }, collect = 'status'";
+  REQUIRE(study.sweep(text) == 0);
+  REQUIRE(study.sweep(text, {"--resume"}) == 0);
+  study.write("one/a.csv", "0,0\n0.01,2\n0.02,0\n");
+  CHECK(study.sweep(text, {"--resume"}) == 2);
+  CHECK(contains(study.said, "has changed"));
+}
