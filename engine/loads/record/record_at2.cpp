@@ -30,6 +30,8 @@ Header parse_header(const RecordText& text, size_t index) {
   if (found < 2 || dt == std::string::npos)
     throw Error("this line should give the number of values and their step; write it as \"NPTS= 4000, DT= .0100 SEC\"", place);
   if (dt < npts) std::swap(numbers[0], numbers[1]);
+  if (line.find("msec", dt) != std::string::npos || line.find(" ms", dt) != std::string::npos)
+    throw Error("the step is in ms; write it in s, as \"NPTS= 4000, DT= .0100 SEC\"", place);
   if (!(numbers[0] >= 2 && numbers[0] <= 1e8 && numbers[0] == std::floor(numbers[0])))
     throw Error(fmt::format("NPTS = {} is not a number of values; give an integer of at least 2", numbers[0]), place);
   if (!(numbers[1] > 0 && numbers[1] <= 1e3)) throw Error(fmt::format("DT = {} s is not a step; give one above 0", numbers[1]), place);

@@ -87,6 +87,11 @@ RecordReport report(const Record& record) {
   r.duration = a.times.back();
   r.pga = largest(a.times, a.values);
   r.pgv = largest(a.times, a.area);
+  r.shortest_dt = a.times.size() > 1 ? a.times[1] - a.times[0] : 0;
+  for (std::size_t i = 1; i < a.times.size(); ++i) {
+    r.shortest_dt = std::min(r.shortest_dt, a.times[i] - a.times[i - 1]);
+    r.longest_dt = std::max(r.longest_dt, a.times[i] - a.times[i - 1]);
+  }
   r.pgd = largest(a.times, a.double_area);
   r.true_pgv = largest_velocity(a);
   r.true_pgd = largest_displacement(a);
@@ -100,7 +105,8 @@ RecordReport report(const Record& record) {
 }
 
 void print(std::ostream& out, const RecordReport& r) {
-  const std::string step = r.dt > 0 ? fmt::format("{:.6g} s", r.dt) : "uneven";
+  const std::string step =
+      r.dt > 0 ? fmt::format("{:.6g} s", r.dt) : fmt::format("uneven, {:.6g} to {:.6g} s", r.shortest_dt, r.longest_dt);
   const auto row = [&](std::string_view name, const std::string& text) { out << fmt::format("{:<22} {}\n", name, text); };
   row("file", r.file);
   if (!r.title.empty()) row("title", r.title);

@@ -19,6 +19,7 @@ struct RecordReport {
   std::string file, title, format, hash, note;
   int points = 0;                                 // values in the file
   double dt = 0;                                  // s, as scaled; 0: uneven
+  double shortest_dt = 0, longest_dt = 0;         // s, between points; where they differ much, values are missing
   double duration = 0;                            // s
   Peak pga, pgv, pgd;                             // m/s2, m/s, m: largest at the points, as in catalogues
   Peak true_pgv, true_pgd;                        // m/s, m: largest anywhere, on the parabolas and cubics between points too

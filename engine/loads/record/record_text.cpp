@@ -93,8 +93,9 @@ RecordText read_record_text(const std::string& path) {
   std::string_view rest = bytes;
   if (rest.substr(0, 3) == "\xEF\xBB\xBF") rest.remove_prefix(3);  // byte order mark, written by some editors
   bool blank = true;
+  const char line_end = rest.find('\n') == std::string_view::npos ? '\r' : '\n';  // old files end their lines with CR alone
   while (!rest.empty()) {
-    const size_t end = std::min(rest.find('\n'), rest.size());
+    const size_t end = std::min(rest.find(line_end), rest.size());
     text.lines.emplace_back(rest.substr(0, end));
     if (!text.lines.back().empty() && text.lines.back().back() == '\r') text.lines.back().pop_back();
     blank = blank && is_blank(text.lines.back());

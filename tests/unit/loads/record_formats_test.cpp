@@ -136,3 +136,10 @@ TEST_CASE("the help on a unit lists all units of an acceleration", "[loads][reco
   for (const auto& field : Record::fields())
     if (field.name == "unit") CHECK_THAT(std::string(field.text), Contains(std::string(known_units("acceleration")) + ";"));
 }
+
+TEST_CASE("lines may end with CR alone, and a step in ms is no step in s", "[loads][record]") {
+  const auto in_g = [](Record& r) { r.unit = "m/s2"; };
+  CHECK(read_text("0,1\r1,2\r", in_g).acceleration.values == std::vector<double>{1, 2});
+  const std::string head = "PEER\nX\nACCELERATION TIME SERIES IN UNITS OF G\n";
+  CHECK_THAT(mistake_in(head + "NPTS= 3, DT= 10 MSEC\n.1 .2 .3\n"), Contains("motion.txt:4") && Contains("in ms") && Contains("in s"));
+}
