@@ -16,6 +16,12 @@ const std::vector<Function>& api() {
          {block_functions(), joint_functions(), wave_functions(), load_functions(), support_functions(), analysis_functions(),
           result_functions(), stored_functions(), study_functions(), sweep_functions(), calibration_functions(), companion_functions()})
       all.insert(all.end(), topic.begin(), topic.end());
+    for (const auto& topic : {wave_functions(), companion_functions()})
+      for (const Function& giving : topic)
+        for (Function& function : all)
+          if (function.name == giving.name) function.only_gives = true;
+    for (Function& function : all)
+      if (function.name == "include" || function.name == "masonry_stiffness") function.only_gives = true;
     return all;
   }();
   return table;
@@ -101,6 +107,9 @@ int guarded(lua_State* lua) {
 int call_api(lua_State* lua, Context& context) {
   const auto* function = static_cast<const Function*>(lua_touserdata(lua, lua_upvalueindex(2)));
   Call call{context, lua, *function, current_place(lua)};
+  if (context.run != nullptr && !function->only_gives)
+    throw Error(fmt::format("{} changes the scene, and its run is over; call it outside the function that reads the run", function->name),
+                call.place);
   const Doing doing(context.limits, call.place.text() + ": " + function->name, true);
   context.took(0);
   return function->call(call);

@@ -23,12 +23,13 @@ struct Call {
 
 struct Function {
   std::string name;
-  int (*call)(Call&);      // returns the number of results it has pushed
-  std::string parameters;  // as in a definition: "{ ... }" for one table with keys, otherwise "name, default, text"
-  std::string returns;     // "string: the name of the block"; "" if the function returns nothing
-  std::string text;        // one line
-  Keys keys;               // keys of the table, or the positional parameters in their order
-  bool of_study = false;   // a word of study files alone, which a scene may use for itself
+  int (*call)(Call&);       // returns the number of results it has pushed
+  std::string parameters;   // as in a definition: "{ ... }" for one table with keys, otherwise "name, default, text"
+  std::string returns;      // "string: the name of the block"; "" if the function returns nothing
+  std::string text;         // one line
+  Keys keys;                // keys of the table, or the positional parameters in their order
+  bool of_study = false;    // a word of study files alone, which a scene may use for itself
+  bool only_gives = false;  // a value, and leaves the scene as it is: after the run a metric may call it too
 };
 
 const std::vector<Function>& api();

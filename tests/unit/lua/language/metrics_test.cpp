@@ -69,6 +69,16 @@ TEST_CASE("a metric that fails says where, and the others are still there", "[lu
   CHECK(contains(values[3].error, "scene.lua:10:"));
 }
 
+TEST_CASE("a metric reads the run and leaves the scene alone", "[lua]") {
+  const auto values = evaluate(
+      "metric('a', '', function(run) box{ size = {1, 1, 1}, at = {9, 9, 9}, free = true } return 1 end)\n"
+      "metric('b', '', function(run) return sine{ amplitude = 2, frequency = 1 }(.25) end)\n"
+      "metric('c', '', function(run) return rocking{ width = .2, height = 1, theta = .05, duration = 1 }.alpha end)");
+  CHECK(contains(values[0].error, "box changes the scene, and its run is over"));
+  CHECK(*values[1].value == Approx(2));
+  CHECK(*values[2].value == Approx(std::atan(0.2)));
+}
+
 TEST_CASE("expectations pass and fail as they say", "[lua]") {
   const Scene scene = scene_of(
       "expect('time_s', 4.1, { rel = 0.03 })\nexpect('time_s', 4.1, { rel = 0.02 })\nexpect('time_s', 4.1, { abs = 0.11 "
