@@ -107,6 +107,7 @@ int spectrum(Call& call) {
 }
 
 int recorder(Call& call) {
+  const size_t told_before = call.context.told();
   Arguments arguments = call.arguments();
   Scene& scene = call.context.scene;
   Recorder item;
@@ -120,9 +121,18 @@ int recorder(Call& call) {
   item.blocks = one;
   item.blocks.insert(item.blocks.end(), several.begin(), several.end());
   arguments.read("others", item.others);
+  // Without a word about blocks some quantities are of the whole model: a list that came out empty must not mean that.
+  const auto names_none = [&](const char* key, bool none) {
+    if (arguments.has(key) && none && call.context.told() == told_before)
+      arguments.mistake(fmt::format("{} names no block; name one, or leave it out", key));
+  };
+  names_none("block", one.empty());
+  names_none("blocks", several.empty());
+  names_none("others", item.others.empty());
   for (const char* key : {"group", "other_group"}) {
     std::string group;
     arguments.read(key, group);
+    names_none(key, group.empty());
     if (!group.empty()) call.context.group_recorders.push_back({scene.recorders.size(), group, key[0] == 'o'});
   }
   scene.recorders.push_back(std::move(item));

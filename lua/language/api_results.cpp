@@ -99,7 +99,7 @@ int metric(Call& call) {
       call.mistake(fmt::format("\"{}\" was given before, at {}; use another name", item.name, other.place.text()));
   lua_settop(call.lua, 3);
   if (lua_type(call.lua, 3) == LUA_TNUMBER && !std::isfinite(lua_tonumber(call.lua, 3)))
-    call.mistake(fmt::format("\"{}\" is {}, no finite number (0/0 or 1/0?); correct it", item.name, lua_tonumber(call.lua, 3)));
+    call.mistake(fmt::format("\"{}\" is {}, no finite number (0/0 or 1/0?); correct it", item.name, written(lua_tonumber(call.lua, 3))));
   if (lua_type(call.lua, 3) == LUA_TNUMBER) item.value = lua_tonumber(call.lua, 3), item.function = LUA_NOREF;
   else if (lua_isfunction(call.lua, 3)) item.function = luaL_ref(call.lua, LUA_REGISTRYINDEX);
   else throw Error(fmt::format("metric \"{}\" must be a number or a function(run), not {}", item.name, described(call.lua, 3)), call.place);
@@ -117,6 +117,7 @@ void read_tolerance(Arguments& arguments, Expectation& item, bool has_number) {
   for (const auto& [key, kind] : {std::pair{"below", Kind::below}, {"above", Kind::above}})
     if (arguments.has(key)) {
       arguments.read(key, flag);
+      if (!flag) arguments.mistake(fmt::format("of \"{}\": {} = false says nothing; write {} = true, or leave it out", item.key, key, key));
       item.kind = kind;
       item.tolerance = item.value;
       ++kinds;

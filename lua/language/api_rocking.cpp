@@ -115,6 +115,7 @@ std::optional<Bed> read_bed(Call& call, Arguments& arguments, const analysis::Ro
 }
 
 int rocking(Call& call) {
+  const std::size_t told_before = call.context.told();
   Arguments arguments = call.arguments();
   const analysis::RockingBlock block = read_block(call, arguments);
   const std::optional<Bed> bed = read_bed(call, arguments, block);
@@ -128,7 +129,8 @@ int rocking(Call& call) {
     arguments.mistake(
         fmt::format("theta = {} rad is past alpha = {:.4g} rad: the block falls at once; make it smaller", start.theta, block.alpha));
   analysis::RockingRun run;
-  if (duration > 0) run = rock(block, {wave ? &*wave : nullptr, 1}, start, duration);
+  const bool sound = call.context.told() == told_before;  // a value out of range may take for ever
+  if (sound && duration > 0) run = rock(block, {wave ? &*wave : nullptr, 1}, start, duration);
   lua_newtable(call.lua);
   describe(call.lua, block);
   if (bed) {
@@ -152,6 +154,7 @@ int rocking(Call& call) {
 }
 
 int rocking_overturning(Call& call) {
+  const std::size_t told_before = call.context.told();
   Arguments arguments = call.arguments();
   const analysis::RockingBlock block = read_block(call, arguments);
   std::string criterion = "overturning";
@@ -170,7 +173,8 @@ int rocking_overturning(Call& call) {
     arguments.mistake("the wave does not end; say how long to watch: duration = ...");
   std::vector<analysis::OverturningBand> bands;
   const analysis::Criterion asked = criterion == "alpha_at_end" ? analysis::Criterion::alpha_at_end : analysis::Criterion::overturning;
-  if (wave && low < high && duration > 0) bands = overturning_bands(block, *wave, asked, low, high, points, duration);
+  if (wave && duration > 0 && call.context.told() == told_before)
+    bands = overturning_bands(block, *wave, asked, low, high, points, duration);
   lua_newtable(call.lua);
   describe(call.lua, block);
   if (!bands.empty()) set(call.lua, "lowest", bands.front().from);

@@ -52,7 +52,7 @@ template <class W>
 requires has_points<W>
 void finish(Call& call, Arguments& arguments, W& wave) {
   std::vector<double> times, values;
-  const auto mistakes = [&] { return call.context.mistakes.size() + size_t(call.context.repeated); };
+  const auto mistakes = [&] { return call.context.told() + size_t(call.context.repeated); };
   const size_t before = mistakes();
   arguments.read("times", times);
   arguments.read("values", values);
@@ -140,11 +140,19 @@ struct Oscillator {
 };
 
 int spectral_acceleration(Call& call) {
+  const std::size_t told_before = call.context.told();
   Arguments arguments = call.arguments();
   Oscillator of;
   arguments.read(of);
+  if (arguments.is_function("wave")) {
+    arguments.mistake(
+        "wave must be a wave, such as sine{ ... } or record{ ... }; put the values of this function into a table_wave{ ... }");
+    lua_pushnumber(call.lua, 0);
+    return 1;
+  }
   const auto wave = arguments.wave("wave");
-  lua_pushnumber(call.lua, wave ? response_spectrum(line_of(*wave, of.period, call), {of.period}, of.damping).front().acceleration : 0);
+  const bool sound = wave && call.context.told() == told_before;
+  lua_pushnumber(call.lua, sound ? response_spectrum(line_of(*wave, of.period, call), {of.period}, of.damping).front().acceleration : 0);
   return 1;
 }
 

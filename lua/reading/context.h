@@ -119,6 +119,7 @@ struct Context {
   const Frame& frame() const { return frames.back(); }
   // Adds one mistake of the user. The script continues, so that all mistakes are reported at once; it ends when there are very many.
   void mistake(const Place& place, const std::string& message);
+  size_t told() const { return mistakes.size() + static_cast<size_t>(repeated); }
   // Counts the bytes that a call of the API keeps outside Lua. Throws Error if the total memory exceeds its limit.
   void took(size_t bytes);
 };

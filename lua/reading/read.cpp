@@ -10,7 +10,7 @@
 
 namespace erbs::lua {
 
-std::string written(double value) { return !std::isinf(value) ? fmt::format("{:.6g}", value) : value > 0 ? "math.huge" : "-math.huge"; }
+std::string written(double x) { return x != x ? "0/0" : !std::isinf(x) ? fmt::format("{:.6g}", x) : x > 0 ? "math.huge" : "-math.huge"; }
 
 std::string written(const Vec3& value) {
   return fmt::format("{{ {}, {}, {} }}", written(value.x()), written(value.y()), written(value.z()));
