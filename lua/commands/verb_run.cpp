@@ -261,7 +261,12 @@ int verb_run(const RunCommand& wish) {
   Script script(how);
   script.load(path, command.scene.overrides);
   Scene scene = script.take_scene();
-  for (const auto& effect : command.changes.without) switch_off(scene, effect);
+  for (const auto& effect : command.changes.without) {
+    for (const Effect& known : effects_of(scene))
+      if (known.name == effect && !known.on)
+        tell(stderr, fmt::format("warning: --without {}: the scene has no such effect", shown(effect)));
+    switch_off(scene, effect);
+  }
   std::vector<std::string> notes = script.output();
   notes.insert(notes.end(), scene.notes.begin(), scene.notes.end());
   for (const auto& note : apply_overrides(scene, command, script)) notes.push_back(note);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
+#include <filesystem>
 
 #include "engine/base/text.h"
 #include "lua/program/progress.h"
@@ -75,12 +76,21 @@ long bless(const std::vector<CaseResult>& results) {
   return renewed;
 }
 
+// Before hours of runs, not after them.
+void check_book(const std::string& book) {
+  namespace fs = std::filesystem;
+  if (fs::is_directory(book)) throw Error(fmt::format("--book {} is a folder; name the file, such as {}/README.md", book, book));
+  if (const fs::path folder = fs::absolute(book).parent_path(); !fs::is_directory(folder))
+    throw Error(fmt::format("--book {}: there is no folder {}; make it, or correct the path", book, folder.string()));
+}
+
 }  // namespace
 
 int verb_test(const TestCommand& command) {
   if (command.words.empty()) throw Error("test takes scenes or folders; write erbs test scenes/verify");
   if (command.bless && (command.grid || command.seeds > 0 || !command.scene.overrides.empty()))
     throw Error("--bless stores results of the scenes as they are written; leave out --grid, --seeds and -D");
+  if (!command.book.empty()) check_book(command.book);
   if (command.grid || command.seeds > 0) return run_grid(command);
   std::vector<Case> cases =
       find_cases(command.words, command.scene, command.directory.empty() ? "runs/test" : command.directory, command.quick ? "quick" : "");

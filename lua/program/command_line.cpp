@@ -36,7 +36,7 @@ void add_run(CLI::App& app, RunCommand& command) {
          "--noise", changes.noise,
          "perturb the initial state of every free block by up to this (m and rad), with the same seed unless --noise-seed says another")
       ->check(within(0.0, 1.0));
-  run.add_option("--noise-seed", changes.noise_seed, "seed of --noise (default: 1)")->check(within(1, 1000000));
+  run.add_option("--noise-seed", changes.noise_seed, "seed of --noise (default: 1)")->check(within(1, 1000000))->needs("--noise");
   run.add_option("--push-to", changes.push_to,
                  "push to this displacement of the monitored point (m) and no further, such as the one of the performance point")
       ->check(within(1e-9, 1e3));

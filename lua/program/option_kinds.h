@@ -1,6 +1,9 @@
 // Kinds of options that several verbs share: numbers in a range, lengths of time, output folders, how a scene is read.
 #pragma once
 #include <CLI/CLI.hpp>
+#include <cmath>
+#include <filesystem>
+#include <type_traits>
 
 #include "engine/base/text.h"
 #include "lua/program/options.h"
@@ -16,6 +19,9 @@ CLI::Validator within(T low, T high) {
       [=](std::string& text) {
         T value{};
         if (CLI::detail::lexical_cast(text, value) && value >= low && value <= high) return std::string();
+        double number = 0;
+        if (std::is_integral_v<T> && CLI::detail::lexical_cast(text, number) && std::isfinite(number) && number != std::floor(number))
+          return fmt::format("{} is no whole number", shown(text));
         return fmt::format("{} is not in range {}", shown(text), range);
       },
       range);
@@ -25,6 +31,14 @@ CLI::Validator within(T low, T high) {
 inline CLI::Validator filled() {
   return CLI::Validator(
       [](std::string& text) { return text.empty() ? std::string("it is empty; give it a value, or leave the option out") : ""; }, "");
+}
+
+inline CLI::Validator folder() {
+  return CLI::Validator(
+      [](std::string& text) {
+        return std::filesystem::is_directory(text) ? "" : fmt::format("there is no folder {}; check the path", shown(text));
+      },
+      "");
 }
 
 // An option whose value is a length of time, in s.
@@ -60,6 +74,7 @@ inline void add_scene(CLI::App& verb, SceneOptions& scene) {
   verb.add_flag("--allow-unstable", scene.allow_unstable, "allow a time step beyond the limit");
   verb.add_option("--allow", scene.allow, "allow the scene to read files in this folder besides its own")
       ->type_name("DIR")
+      ->check(folder())
       ->expected(1)
       ->take_all();
   verb.add_option("--max-blocks", scene.max_blocks, "refuse a scene of more blocks (default 300000)")->check(within(1, 100000000));

@@ -88,10 +88,24 @@ void stiffen(JointRule& rule, double factor) {
       rule.law);
 }
 
+// Of two values for one key the later would win without a word.
+void check_settings(const SceneChanges& changes) {
+  std::vector<std::string> keys;
+  for (const auto& setting : changes.settings) {
+    const std::string key = setting.substr(0, setting.find('='));
+    if (std::find(keys.begin(), keys.end(), key) != keys.end())
+      throw Error(fmt::format("--set {}: {} was set before; keep one", setting, key));
+    if (changes.dt_fraction && (key == "dt_fraction" || key == "dt"))
+      throw Error(fmt::format("--set {} and --dt-fraction both give the time step; keep one", setting));
+    keys.push_back(key);
+  }
+}
+
 }  // namespace
 
 std::vector<std::string> apply_overrides(Scene& scene, const RunCommand& command, Script& script) {
   const SceneChanges& changes = command.changes;
+  check_settings(changes);
   std::vector<std::string> notes;
   if (changes.dt_fraction) {
     scene.analysis.dt = 0;
@@ -201,7 +215,7 @@ std::vector<std::string> override_arguments(const RunCommand& command) {
   if (!changes.damping_form.empty()) words.insert(words.end(), {"--damping-form", changes.damping_form});
   if (changes.from) words.insert(words.end(), {"--from", fmt::format("{}", *changes.from)});
   if (changes.noise > 0) words.insert(words.end(), {"--noise", fmt::format("{}", changes.noise)});
-  if (changes.noise_seed != 1) words.insert(words.end(), {"--noise-seed", std::to_string(changes.noise_seed)});
+  if (changes.noise > 0 && changes.noise_seed != 1) words.insert(words.end(), {"--noise-seed", std::to_string(changes.noise_seed)});
   if (changes.push_to > 0) words.insert(words.end(), {"--push-to", fmt::format("{}", changes.push_to)});
   if (command.scene.allow_unstable) words.emplace_back("--allow-unstable");
   return words;

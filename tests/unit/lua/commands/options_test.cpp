@@ -144,6 +144,32 @@ TEST_CASE("words, verbs and options that there are not are told in plain letters
   check_no_harm(bench);
 }
 
+TEST_CASE("options that contradict each other, or mean nothing, are refused", "[options]") {
+  Bench bench;
+  const std::string scene = bench.scene(four_bricks() + "joint{ law = dry{ kn = 1e9, mu = .6 } }\nanalysis{ duration = .01 }\n");
+  const std::vector<std::pair<std::vector<std::string>, std::string>> cases{
+      {{"--noise-seed", "3"}, "--noise-seed"},
+      {{"--set", "output_dt=.001", "--set", "output_dt=.002"}, "output_dt was set before"},
+      {{"--set", "dt_fraction=.5", "--dt-fraction", ".3"}, "both give the time step"},
+      {{"--threads", "1.5"}, "1.5 is no whole number"},
+      {{"--allow", (bench.folder / "nowhere").string()}, "there is no folder"}};
+  for (const auto& [options, wanted] : cases) {
+    std::vector<std::string> words{"run", scene, "-o", bench.out()};
+    words.insert(words.end(), options.begin(), options.end());
+    INFO(wanted);
+    CHECK(bench.erbs(words) == 2);
+    INFO(bench.said);
+    CHECK(contains(bench.said, wanted));
+    CHECK_FALSE(fs::exists(bench.out()));
+  }
+  CHECK(bench.erbs({"run", scene, "-o", bench.out(), "--no-figures", "--without", "ground x"}) == 0);
+  CHECK(contains(bench.said, "the scene has no such effect"));
+  for (const fs::path& book : {bench.folder, bench.folder / "nowhere" / "book.md"}) {
+    CHECK(bench.erbs({"test", scene, "--book", book.string()}) == 2);
+    CHECK_FALSE(contains(bench.said, "verdict"));  // told before the runs
+  }
+}
+
 TEST_CASE("what a run is told on its command line stands escaped in its files", "[options]") {
   for (const std::string value : {"a\nb", "a\x1b[31m", "a\xff\xfe", "<b>&]]>", "it's \"so\" $(touch pwned)"}) {
     Bench bench;
