@@ -151,6 +151,12 @@ TEST_CASE("mistakes in a fragility name the key and the remedy", "[sweep][fragil
   says("im = 'pga', collapse = 'metrics.fell', by = { 'seed' }", "by = \"seed\" is no param of vary");
   says("im = 'pga', collapse = 'metrics.fell', along = 'pgg'", "along = \"pgg\"");
   says("im = 'pga', collapse = 'metrics.fell', demage = {}", "demage");
+  says("im = 'pga', collapse = 'metrics.fell', by = 'pga'", "by = \"pga\" is what grows within a case");
+  CHECK(study.sweep(
+            "study{ scene = 'tiny.lua', vary = { grid{ pga = { 1, 2 }, seed = { 1, 2 } } }, fragility = { im = 'pga', along = 'seed', "
+            "collapse = 'metrics.fell' } }",
+            {"--force"}) == 2);
+  CHECK_THAT(study.said, Catch::Contains("along = \"seed\"") && Catch::Contains("leave along out"));
   CHECK(study.sweep(
             "study{ scene = 'tiny.lua', vary = { grid{ seed = { 'a', 'b' } } }, fragility = { im = 'seed', collapse = 'metrics.fell' } }",
             {"--force"}) == 2);
