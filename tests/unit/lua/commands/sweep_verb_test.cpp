@@ -337,6 +337,10 @@ TEST_CASE("the ranks of mpirun share a study, and so do the tasks of a job array
   SECTION("tasks of the job that --slurm writes, one of which is killed") {
     REQUIRE(study.sweep(grid, {"--slurm", "-j", "3"}) == 0);
     CHECK_THAT(text_of(study.out() + "/job.sh"), Catch::Contains("#SBATCH --array=0-2"));
+    const std::string spaced = (study.folder / "a b").string();
+    REQUIRE(study.sweep(grid, {"--slurm"}, spaced) == 0);
+    CHECK_THAT(study.said, Catch::Contains("sbatch '" + spaced + "/job.sh'"));
+    CHECK_THAT(text_of(spaced + "/job.sh"), Catch::Contains("--output='" + spaced + "/job_logs/%a.log'\n"));
     std::vector<Child> tasks;
     for (const char* task : {"0", "1", "2"})
       tasks.push_back(start({"env", std::string("SLURM_ARRAY_TASK_ID=") + task, "SLURM_PROCID=0", "sh", study.out() + "/job.sh"},
