@@ -335,7 +335,8 @@ building = public(function(options)
   end
   local courses = {}
   for s = 1, k.storeys do
-    courses[s] = math.tointeger(type(k.courses) == "table" and k.courses[s] or k.courses)  -- -D gives a float even for a whole number
+    local n = type(k.courses) == "table" and k.courses[s] or k.courses
+    courses[s] = type(n) == "number" and math.tointeger(n)  -- -D gives a float even for a whole number, and "5" is a word
     if not courses[s] or courses[s] < 1 then fail("building: courses must be a whole number above 0, or a list of %d", k.storeys) end
   end
   k.prefix, k.wall_group = k.name ~= "" and k.name .. "." or "", function(wall_name) return k.group .. "_" .. wall_name end

@@ -78,6 +78,8 @@ TEST_CASE("what a scene says wrong is one message with its place and remedy", "[
       {"analysis{ kind = 'pushover', pattern = {} }", {at, "pattern must be a list of one table or more"}},
       {"gravity{ 0, 0 }", {at, "value 3 is missing", "add it behind the others"}},
       {"camera{ name = 'c', eye = {5, 5, 5}, target = {0, 0, 0}, up = {0, 0, 0} }", {at, "up is zero"}},
+      {"building{ plan = {2, 2}, courses = '5', brick = { length = .3, width = .1, height = .1 }, joint = 0, material = 'brick' }",
+       {at, "building: courses must be a whole number"}},
       {"recorder{ name = 'r', quantity = 'reaction', blocks = {} }", {at, "blocks names no block"}},
       {"recorder{ name = 'r', quantity = 'reaction', group = '' }", {at, "group names no block"}},
       {"expect('dt_s', 1, { below = false })", {at, "below = false says nothing"}},
