@@ -120,6 +120,7 @@ void ContactBound::bound_elsewhere() {
   for (int b = 0; b < model_.nblock; ++b) {
     if (here[z(b)]) continue;
     omega2_[z(b)] = sleep_.omega2(b), impact_omega2_[z(b)] = 0;
+    slow_force2_[z(b)] = 0;  // its last pairs are gone; a resumed run does not know what they bore
     if (model_.kind[z(b)] == Kind::moving) elsewhere_ = std::max(elsewhere_, limit_.on_block(b, sleep_.omega2(b), 0));
   }
 }
