@@ -38,7 +38,8 @@ void MotionBounds::select(const Sleep& sleep) {
   placed_.clear();
   driven_.clear();
   awake_.clear();
-  for (const int b : sleep.awake()) add_to_group(awake_, b);
+  for (const int b : sleep.awake())
+    if (model_.kind[z(b)] != Kind::driven) add_to_group(awake_, b);
   std::vector<int> in_live_pairs = sleep.in_live_pairs();
   std::ranges::sort(in_live_pairs);
   for (const int b : in_live_pairs) {
@@ -121,6 +122,8 @@ bool MotionBounds::prepare(const std::vector<int>& involved, bool unsorted) {
     for (const int b : involved) fastest = std::max(fastest, bodies_.block[z(b)].v.squaredNorm());
   } else {
     for (const BlockGroup& blocks : driven_) update(blocks, late);  // no drift moves them
+    for (const int b : involved)                                    // at the speed of the step to come, as after a resumption
+      if (model_.kind[z(b)] == Kind::driven) fastest = std::max(fastest, Vec3(state_.motion.v[z(b)]).squaredNorm());
   }
   double speed = *std::ranges::max_element(late.speed);
   for (const MaxSpeed& one : fastest_) speed = std::max(speed, *std::ranges::max_element(one.speed));
