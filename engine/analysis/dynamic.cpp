@@ -147,7 +147,7 @@ void Run::begin() {
 void Run::watch(const BlockVec3& built) {
   collapse_ = watch_collapse(run_.model, run_.state.pose);
   collapse_.thrown = thrown_blocks(scene_, run_.model, run_.state);
-  for (const int b : run_.fallers) collapse_.start[z(b)] = built[z(b)].z();
+  for (const int b : run_.fallers) collapse_.start[z(b)] = upwards(run_.model).dot(built[z(b)]);
   if (run_.fallers.empty() || falling_share(run_) < scene_.analysis.collapse_fraction) return;
   collapse_.collapsed = collapse_.under_gravity = true;
   collapse_.time = infinite;  // it has not fallen yet

@@ -97,7 +97,8 @@ void PushRun::begin() {
     collapse_ = watch_collapse(run_.model, run_.state.pose);
     gravity_alone_ = falling_share(run_) >= scene_.analysis.collapse_fraction;
     so_far_.fell.assign(z(run_.model.nblock), 0);
-    for (const int b : run_.fallers) collapse_.start[z(b)] = intact.pose.u[z(b)].z(), so_far_.fell[z(b)] = !gravity_alone_;
+    for (const int b : run_.fallers)
+      collapse_.start[z(b)] = height_above_rest(run_.model, intact.pose, z(b)), so_far_.fell[z(b)] = !gravity_alone_;
   }
   State loaded = std::exchange(run_.state, intact);
   relaxation_.emplace(push_, group_, run_, so_far_.fell, options_.threads);  // of the intact structure: a resumed push has the same

@@ -8,11 +8,13 @@
 namespace erbs {
 namespace {
 
+constexpr double straight_down = 1e-3;  // of the way: what moves sideways by less falls straight down, its direction is round-off
+
 bool counts(const Collapse& collapse, const Model& model, std::size_t b) { return model.kind[b] == Kind::moving && !collapse.thrown[b]; }
 
 bool down(const Collapse& collapse, const Model& model, const BlockPoses& pose, std::size_t b) {
   if (!counts(collapse, model, b)) return false;
-  const double way = collapse.start[b] - pose.u[b].z(), most = 0.5 * model.thickness[b];
+  const double way = collapse.start[b] - height_above_rest(model, pose, b), most = 0.5 * model.thickness[b];
   return way > most && way - collapse.supports.lowered(model, pose, b) > most;
 }
 
@@ -21,7 +23,7 @@ bool down(const Collapse& collapse, const Model& model, const BlockPoses& pose, 
 Collapse watch_collapse(const Model& model, const BlockPoses& start) {
   Collapse collapse;
   collapse.start.resize(std::size_t(model.nblock));
-  for (std::size_t b = 0; b < collapse.start.size(); ++b) collapse.start[b] = start.u[b].z();
+  for (std::size_t b = 0; b < collapse.start.size(); ++b) collapse.start[b] = height_above_rest(model, start, b);
   collapse.supports.ride = rides_of(model);
   collapse.supports.left.assign(collapse.supports.ride.size(), 0);
   collapse.thrown.assign(collapse.start.size(), 0);
@@ -81,16 +83,17 @@ std::string span_of_event(double output_dt, double frame_dt, double t) {
 
 std::optional<std::array<double, 2>> collapse_direction(const Collapse& collapse, const Model& model, const BlockPoses& pose) {
   Eigen::Vector2d sum = Eigen::Vector2d::Zero();
-  double lengths = 0;
+  double lengths = 0, ways = 0;
   for (std::size_t b = 0; b < collapse.start.size(); ++b) {
     if (!down(collapse, model, pose, b)) continue;
     const Eigen::Vector2d horizontal = pose.u[b].head<2>();
     sum += horizontal;
     lengths += horizontal.norm();
+    ways += pose.u[b].norm();
   }
   const double length = sum.norm();
   // |sum| < 0.1 sum of lengths is |mean| < 0.1 mean length, since the number of blocks cancels. The negated form makes a NaN no direction.
-  if (!(length > 0) || !(length >= 0.1 * lengths)) return std::nullopt;
+  if (!(length > 0) || !(length >= 0.1 * lengths) || !(lengths >= straight_down * ways)) return std::nullopt;
   return std::array<double, 2>{sum.x() / length, sum.y() / length};
 }
 

@@ -1,6 +1,7 @@
-// Criterion of collapse. A block has fallen if its centroid is lower than at the start, relative to the ground, by more than half its
-// thinnest extent; what a driven support that bears it has been lowered by is no fall. The structure has collapsed if the fallen share of
-// the moving mass reaches `Analysis::collapse_fraction`. What is thrown at the structure is no part of it, and counts in neither mass.
+// Criterion of collapse. A block has fallen if its centroid is lower than at the start, relative to the ground and along the gravity of the
+// scene, by more than half its thinnest extent; what a driven support that bears it has been lowered by is no fall. The structure has
+// collapsed if the fallen share of the moving mass reaches `Analysis::collapse_fraction`. What is thrown at the structure is no part of it,
+// and counts in neither mass.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -60,7 +61,7 @@ std::string span_of_event(double output_dt, double frame_dt, double t);
 inline std::string span_of_event(const Analysis& how, double t) { return span_of_event(how.output_dt, how.frame_dt, t); }
 
 // Mean horizontal displacement (x, y) of the blocks that are down now, as a unit vector. Empty if no block is down. Empty also if the mean
-// vector is shorter than a tenth of the mean length: the blocks fell in all directions.
+// vector is shorter than a tenth of the mean length, since the blocks fell in all directions, or if they fell straight down.
 std::optional<std::array<double, 2>> collapse_direction(const Collapse& collapse, const Model& model, const BlockPoses& pose);
 
 }  // namespace erbs

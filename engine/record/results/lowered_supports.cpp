@@ -15,7 +15,7 @@ namespace {
 double way_down(const Model& model, const BlockPoses& pose, const LoweredSupports::Ride& ride) {
   const std::size_t s = z(ride.bearer);
   const Vec3 arm = model.rest[z(ride.block)] - model.rest[s];
-  return -(pose.u[s] + rotation_change(pose.q[s], arm)).z();
+  return -upwards(model).dot(pose.u[s] + rotation_change(pose.q[s], arm));
 }
 
 // Blocks that each block bears at rest: those whose joint faces upwards, and those that lie on it without one [nblock].
@@ -48,6 +48,13 @@ std::vector<std::vector<int>> borne_by(const Model& model) {
 
 }  // namespace
 
+Vec3 upwards(const Model& model) {
+  const double size = model.gravity.norm();
+  return size > 0 ? Vec3(model.gravity / -size) : Vec3::UnitZ();
+}
+
+double height_above_rest(const Model& model, const BlockPoses& pose, std::size_t b) { return upwards(model).dot(pose.u[b]); }
+
 std::vector<LoweredSupports::Ride> rides_of(const Model& model) {
   std::vector<LoweredSupports::Ride> out;
   if (model.prescribed_motions.empty()) return out;
@@ -70,7 +77,7 @@ void LoweredSupports::follow(const Model& model, const BlockPoses& pose, const s
   left.resize(ride.size());
   for (std::size_t i = 0; i < ride.size(); ++i) {
     const std::size_t b = z(ride[i].block);
-    if (!left[i]) left[i] = way_down(model, pose, ride[i]) - (start[b] - pose.u[b].z()) > 0.5 * model.thickness[b];
+    if (!left[i]) left[i] = way_down(model, pose, ride[i]) - (start[b] - height_above_rest(model, pose, b)) > 0.5 * model.thickness[b];
   }
 }
 

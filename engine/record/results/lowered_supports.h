@@ -9,6 +9,11 @@
 
 namespace erbs {
 
+// Against the gravity of the scene, before any tilt{}; without gravity along z.
+Vec3 upwards(const Model& model);
+// m, of the centroid of a block.
+double height_above_rest(const Model& model, const BlockPoses& pose, std::size_t b);
+
 struct LoweredSupports {
   struct Ride {
     int block, bearer;

@@ -40,6 +40,23 @@ TEST_CASE("a block has fallen below half its thinnest extent from where it start
   CHECK(c.time == 1.5);
 }
 
+TEST_CASE("a block falls along the gravity of its scene", "[record][collapse]") {
+  auto t = test::two_bricks();
+  t.model.gravity = {5, 0, 0};
+  Collapse c = watch_collapse(t.model, t.state.pose);
+  t.state.pose.u[1] = Vec3(0.0499, 0, -1);
+  CHECK_FALSE(update(c, t.model, t.state.pose, 1.0));
+  CHECK(c.fallen_fraction == 0);
+  t.state.pose.u[1] = Vec3(0.0501, 0, 1);
+  CHECK(update(c, t.model, t.state.pose, 1.5));
+  t.model.gravity = {0, -3, -4};  // a slope: sliding down by 0.1 m lowers by 0.06 m
+  c = watch_collapse(t.model, test::two_bricks().state.pose);
+  t.state.pose.u[1] = Vec3(0, 0.1, 0);
+  CHECK_FALSE(update(c, t.model, t.state.pose, 1.0));
+  t.state.pose.u[1] = Vec3(0, -0.1, 0);
+  CHECK(update(c, t.model, t.state.pose, 1.5));
+}
+
 TEST_CASE("the time of a collapse is said as far as it is known: between two looks at the poses", "[record][collapse]") {
   Analysis how;
   how.output_dt = 0.01, how.frame_dt = 0.04;
@@ -173,6 +190,8 @@ TEST_CASE("the direction is the unit mean, and none where blocks fall every way"
   CHECK_FALSE(collapse_direction(c, t.model, t.state.pose));
   t.state.pose.u[2] = Vec3(-0.80, 0, -1);  // 0.1 / 0.9: 0.111
   CHECK(collapse_direction(c, t.model, t.state.pose));
+  t.state.pose.u[1] = t.state.pose.u[2] = Vec3(1e-17, -1e-17, -1);  // straight down: round-off is no direction
+  CHECK_FALSE(collapse_direction(c, t.model, t.state.pose));
 }
 
 TEST_CASE("the course of a collapse names groups in the order of their falls", "[record][collapse]") {
