@@ -123,8 +123,8 @@ void Run::begin() {
     for (const std::string& note : options_.notes) writer_->log(note);
   for (const std::string& w : run_.warnings) writer_->log("warning: " + w);
   if (!resume && collapse_.under_gravity)
-    writer_->log(fmt::format("the structure does not stand under its own weight: {:.3g} % of the mass; {}", 100 * falling_share(run_),
-                             summary(collapse_.mechanism, run_.model, 1000)));
+    writer_->log(fmt::format("the structure does not stand under {}: {:.3g} % of the mass; {}", weight_at_start(run_.model),
+                             100 * falling_share(run_), summary(collapse_.mechanism, run_.model, 1000)));
   for (const std::string& note : run_.notes) writer_->log(note);
   out_.warnings = run_.warnings;
   double low = std::numeric_limits<double>::infinity(), weights = 0, moments = 0;
@@ -248,6 +248,7 @@ Metrics Run::metrics() const {
   m.collapse.fallen_fraction = collapse_.fallen_fraction;
   m.collapse.moved = collapse_.moved;
   m.collapse.under_gravity = collapse_.under_gravity;
+  if (collapse_.under_gravity) m.collapse.under = weight_at_start(run_.model);
   if (collapse_.collapsed && !collapse_.under_gravity) m.collapse.time_s = collapse_.time;
   m.collapse.direction = collapse_direction(collapse_, run_.model, s.pose);
   const Course course = course_of(collapse_, run_.model, group_, m.collapse.direction);

@@ -27,7 +27,7 @@ function shearText(capacity) {
 
 function verdict(metrics) {
   const {capacity} = metrics, completed = metrics.status === 'completed', ended = completed ? '' : ` (run ${metrics.status})`;
-  if (capacity.gravity_alone) return card('bad', 'Verdict', `Does not stand under its own weight${ended}`, []);
+  if (capacity.gravity_alone) return card('bad', 'Verdict', `Does not stand under ${metrics.collapse?.under ?? 'its own weight'}${ended}`, []);
   const tilts = capacity.kind === 'tilt';
   const lead = tilts ? `Stands up to a tilt of ${short(capacity.angle_deg)}°` : `Bears ${multiplierText(capacity.multiplier)}`;
   const lines = [endOf(capacity, completed)];

@@ -41,7 +41,7 @@ function verdictCard(metrics) {
   // A push, and what does not stand under its own weight, have no time of collapse. What has not come to its end may still collapse.
   const lead = !collapse.collapsed ? (ended ? 'Does not collapse' : diverged ? 'No verdict' : 'No collapse so far') :
       run.collapse_when            ? `Collapses ${run.collapse_when}` :
-      collapse.under_gravity       ? 'Does not stand under its own weight' :
+      collapse.under_gravity       ? `Does not stand under ${collapse.under ?? 'its own weight'}` :
                                      'Collapses';
   return card(collapse.collapsed ? 'bad' : metrics.status === 'completed' ? 'good' : 'warn', 'Verdict', lead + how, lines);
 }

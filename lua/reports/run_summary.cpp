@@ -29,6 +29,12 @@ std::string size_text(const Scene& scene, const Json& metrics) {
          (bonds ? fmt::format(", {} broken", metrics.value("joints_broken", 0)) : "");
 }
 
+// What a structure does not stand under; older folders do not say it.
+std::string under_text(const Json& metrics) {
+  const Json* under = find_key(metrics, "collapse.under");
+  return under && under->is_string() ? under->get<std::string>() : "its own weight";
+}
+
 std::string collapse_text(const Analysis& how, const Json& metrics) {
   const Json* collapsed = find_key(metrics, "collapse.collapsed");
   const double share = number_at(metrics, "collapse.fallen_fraction");
@@ -41,9 +47,10 @@ std::string collapse_text(const Analysis& how, const Json& metrics) {
   const std::string towards = direction && direction->is_array() && direction->size() >= 2
                                   ? fmt::format(" towards ({:+.2f}, {:+.2f})", hundredths(0), hundredths(1))
                                   : " in no single direction";
-  std::string text = under_gravity ? fmt::format("does not stand under its own weight; {:.0f} % of the mass fell by the end", 100 * share)
-                                   : fmt::format("collapse {}{}; {:.0f} % of the mass has fallen by the end",
-                                                 span_of_event(how, number_at(metrics, "collapse.time_s")), towards, 100 * share);
+  std::string text = under_gravity
+                         ? fmt::format("does not stand under {}; {:.0f} % of the mass fell by the end", under_text(metrics), 100 * share)
+                         : fmt::format("collapse {}{}; {:.0f} % of the mass has fallen by the end",
+                                       span_of_event(how, number_at(metrics, "collapse.time_s")), towards, 100 * share);
   const Json* mechanism = find_key(metrics, "collapse.mechanism.summary");
   const Json* course = find_key(metrics, "collapse.course");
   if (course && course->is_string() && *course != "") text += "\ncourse: " + course->get<std::string>();
@@ -55,7 +62,7 @@ std::string collapse_text(const Analysis& how, const Json& metrics) {
 std::string capacity_text(const PushSettings& push, const Json& metrics) {
   const Json* capacity = find_key(metrics, "capacity");
   if (!capacity) return "";
-  if (capacity->value("gravity_alone", false)) return "does not stand under its own weight";
+  if (capacity->value("gravity_alone", false)) return "does not stand under " + under_text(metrics);
   const auto number = [&](const char* key) { return number_at(*capacity, key); };
   const char* unit = !push.tilts() && push.pattern.empty() ? " g" : "";
   std::string text = push.tilts() ? fmt::format("tilts to {:.3f} deg (tangent {:.5g})", number("angle_deg"), number("multiplier"))

@@ -330,6 +330,7 @@ Metrics PushRun::metrics() {
   m.max_penetration_relative = s.observed.max_penetration_relative;
   m.collapse.collapsed = gravity_alone_ || collapse_.collapsed || so_far_.path.above.has_value();
   m.collapse.under_gravity = gravity_alone_;
+  if (gravity_alone_) m.collapse.under = weight_at_start(run_.model);
   m.collapse.fallen_fraction = collapse_.fallen_fraction;
   m.collapse.direction = collapse_direction(collapse_, run_.model, s.pose);
   m.collapse.mechanism = mechanism_metrics(collapse_.mechanism, run_.model);

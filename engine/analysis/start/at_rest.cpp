@@ -27,10 +27,12 @@ std::vector<double> constant_loads(const Model& m, const State& s) {
 // Warns of what does not stand where it was built.
 void take_note(const Unsteady& of, Prepared& p) {
   p.fallers = of.falls;
-  if (!of.falls.empty()) p.warnings.push_back("not at rest under its own weight: " + names_of(p.model, of.falls));
+  if (!of.falls.empty())
+    p.warnings.push_back(fmt::format("not at rest under {}: {}", weight_at_start(p.model), names_of(p.model, of.falls)));
   std::vector<int> rests;
   std::ranges::set_difference(of.moved, of.falls, std::back_inserter(rests));
-  if (!rests.empty()) p.warnings.push_back("slides or leans under its own weight until it rests: " + names_of(p.model, rests));
+  if (!rests.empty())
+    p.warnings.push_back(fmt::format("slides or leans under {} until it rests: {}", weight_at_start(p.model), names_of(p.model, rests)));
 }
 
 // Islands without equilibrium, and what loose blocks prop, load or tie to them: all of it as it was built at first. The others stay still:
@@ -73,6 +75,12 @@ void lower_onto_structure(const Scene& scene, Prepared& p, Resting resting, int 
 }
 
 }  // namespace
+
+std::string weight_at_start(const Model& m) {
+  const auto acts = [](const auto& load) { return value(load.wave, 0) != 0; };
+  const bool loaded = std::ranges::any_of(m.force_loads, acts) || std::ranges::any_of(m.tilts, acts);
+  return loaded ? "its own weight and the loads that act from the start" : "its own weight";
+}
 
 Metrics::Equilibrium equilibrium_metrics(const Prepared& p) {
   return {p.equilibrium.iterations, p.equilibrium.given_up, p.equilibrium.unbalanced, p.equilibrium_wall};

@@ -13,6 +13,9 @@ void start_at_rest(const Scene& scene, Prepared& run, int threads, const StartTo
 // The start in metrics.json and manifest.json.
 Metrics::Equilibrium equilibrium_metrics(const Prepared& run);
 
+// What the structure is at rest under, in words: its own weight, and loads that act from t = 0 as constant ones do.
+std::string weight_at_start(const Model& model);
+
 // Share of the moving mass that did not come to rest under its own weight.
 double falling_share(const Prepared& run);
 

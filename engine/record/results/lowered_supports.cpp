@@ -21,12 +21,12 @@ double way_down(const Model& model, const BlockPoses& pose, const LoweredSupport
 // Blocks that each block bears at rest: those whose joint faces upwards, and those that lie on it without one [nblock].
 std::vector<std::vector<int>> borne_by(const Model& model) {
   constexpr double touching = 1e-3;  // of a block's thickness
-  constexpr double upwards = 0.02;   // of a unit normal: a head joint bears nothing
+  constexpr double level = 0.02;     // of a unit normal: a head joint bears nothing
   std::vector<std::vector<int>> out(model.kind.size());
   for (const Joint& joint : model.joint) {
-    const double up = joint.type->frame(2, 2);  // of the normal from a to b
-    if (up > upwards) out[z(joint.a)].push_back(joint.b);
-    if (up < -upwards) out[z(joint.b)].push_back(joint.a);
+    const double up = joint.type->frame.col(2).dot(upwards(model));  // of the normal from a to b
+    if (up > level) out[z(joint.a)].push_back(joint.b);
+    if (up < -level) out[z(joint.b)].push_back(joint.a);
   }
   std::vector<Eigen::AlignedBox3d> box;
   std::vector<std::size_t> order;  // from left to right

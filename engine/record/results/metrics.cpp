@@ -102,6 +102,7 @@ Json to_json(const Metrics& m) {
   Json& collapse = json["collapse"];
   collapse["collapsed"] = m.collapse.collapsed;
   collapse["under_gravity"] = m.collapse.under_gravity;
+  if (m.collapse.under_gravity) collapse["under"] = m.collapse.under;
   collapse["time_s"] = m.collapse.time_s ? Json(*m.collapse.time_s) : Json();
   collapse["direction"] = m.collapse.direction ? Json(*m.collapse.direction) : Json();
   collapse["fallen_fraction"] = m.collapse.fallen_fraction;

@@ -40,6 +40,7 @@ struct Metrics {
   struct Collapse {
     bool collapsed = false;
     bool under_gravity = false;  // the structure does not stand under its own weight
+    std::string under;           // then that weight, and loads that act from the start, in words
     std::optional<double> time_s;
     std::optional<std::array<double, 2>> direction;  // unit vector, x and y
     double fallen_fraction = 0;

@@ -124,6 +124,7 @@ TEST_CASE("what does not stand under its own weight has that as its verdict, wit
                  "does not stand under its own weight: 100 % of the mass; 1 joint opened as a hinge: between foot and over"));
   const Json collapse = read_json(bench.out() + "/metrics.json")["collapse"];
   CHECK(collapse["under_gravity"] == true);
+  CHECK(collapse["under"] == "its own weight");
   CHECK(collapse["collapsed"] == true);
   CHECK(collapse["time_s"].is_null());
   CHECK(bench.run(overhanging + "analysis { duration = 0.3, start = 'rest' }", {"--force"}) == 0);
@@ -134,6 +135,19 @@ TEST_CASE("what does not stand under its own weight has that as its verdict, wit
   CHECK(read_json(bench.out() + "/metrics.json")["collapse"]["time_s"].is_null());
   CHECK(bench.run(overhanging + "analysis { duration = 0.3 }", {"--force", "--max-wall", "0.0001"}) == 2);
   CHECK(contains(bench.said, "0.0001 s were not enough for the structure to come to rest before the first step; nothing is written"));
+}
+
+TEST_CASE("loads that act from the start are named beside the weight that a structure does not bear", "[program]") {
+  Bench bench;
+  const std::string beam = "box { name = 'on', size = { .3, .1, .1 }, at = { 0, 0, 0 }, material = 'brick' }\n";
+  const std::string foot = overhanging.substr(0, overhanging.find("  box { name = \"over\""));
+  for (const bool loaded : {false, true}) {  // the foot bears its weight, .6 of it along x not
+    const std::string push = loaded ? "force { block = 'on', wave = 40, direction = 'x' }\n" : "";
+    CHECK(bench.run(foot + beam + push + "analysis { duration = 0.2 }", {"--force"}) == 0);
+    INFO(bench.said);
+    CHECK(contains(bench.said, "does not stand under its own weight and the loads that act from the start;") == loaded);
+    CHECK(read_json(bench.out() + "/metrics.json")["collapse"]["under_gravity"] == loaded);
+  }
 }
 
 TEST_CASE("a run past its gate is inaccurate in status, exit code and last line, and names the knob", "[program]") {
