@@ -42,6 +42,17 @@ ground_motion{ wave = sine{ amplitude = 0.8*g, frequency = 7 }, direction = "x" 
 analysis{ duration = 0.8 }
 )";
 
+// Its table leaps back at .5 s, among blocks that ride on it.
+const char* const jolt = R"(
+material{ name = "brick", density = 1800, friction = 0.6, restitution = 0.2, kn = 1e9, ks = 4e8 }
+box{ name = "table", size = {1, 1, .1}, at = {0, 0, -.1}, fixed = true }
+for i = 0, 4 do box{ name = "b" .. i, size = {.3, .2, .1}, at = {.35 + .02 * i, .4, .1 * i}, free = true } end
+joint{ law = dry{ kn = 1e10, mu = .6 } }
+motion{ block = "table", direction = "x",
+        wave = table_wave{ times = {0, .1, .2, .3, .5}, values = {0, 0, .03, -.02, .04}, hold = false } }
+analysis{ duration = .8 }
+)";
+
 Metrics run(const char* text, const std::string& dir, Existing existing, std::optional<double> until) {
   Script::Options quiet;
   quiet.quiet = true;
@@ -88,4 +99,14 @@ TEST_CASE("a run that is stopped and resumed ends as if never stopped, to the bi
 
 TEST_CASE("joints that crack after others are gone find the same lanes in a resumed run", "[analysis][resume]") {
   stop_and_go(walls, {0.3, 0.5, 0.7});
+}
+
+TEST_CASE("a block that leaps where a run was stopped meets its neighbours in the same step", "[analysis][resume]") {
+  const test::Scratch whole("jolt_whole"), parts("jolt_parts");
+  const Metrics expected = run(jolt, whole.path, Existing::refuse, {});
+  run(jolt, parts.path, Existing::refuse, .5);
+  const Metrics got = run(jolt, parts.path, Existing::resume, {});
+  CHECK(got.steps == expected.steps);
+  CHECK(got.state_hash == expected.state_hash);
+  CHECK(got.energy == expected.energy);
 }
