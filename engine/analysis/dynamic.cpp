@@ -351,6 +351,7 @@ Manifest manifest_of_run(const Scene& scene, const std::string& script, const Pr
   manifest.dt_block_bound = run.bounds.block;
   manifest.dt_rule = run.dt_rule;
   manifest.override_arguments = options.override_arguments;
+  manifest.scene_path = options.scene_path, manifest.arguments = options.arguments;
   for (const Effect& e : effects_of(scene))
     (e.on ? manifest.effects_on : manifest.effects_off).push_back(e.on ? e.name + " (" + e.because + ")" : e.name);
   return manifest;

@@ -29,6 +29,8 @@ struct Progress {
 struct RunOptions {
   std::string directory;
   std::vector<std::string> override_arguments;  // command-line overrides; a checkpoint accepts only the same ones
+  std::string scene_path;                       // absolute, for manifest.json, by which a run is resumed; "" for a scene without a file
+  std::vector<std::string> arguments;           // other options of the command line that a resumption needs
   std::vector<std::string> notes;               // for the head of log.txt: output of the script, warnings of its check
   Existing existing = Existing::refuse;
   int threads = 1;

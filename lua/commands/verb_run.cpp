@@ -21,6 +21,7 @@
 #include "lua/program/options.h"
 #include "lua/program/overrides.h"
 #include "lua/program/progress.h"
+#include "lua/program/run_again.h"
 #include "lua/program/say.h"
 #include "lua/reports/expectations.h"
 #include "lua/reports/figures.h"
@@ -140,6 +141,8 @@ analysis::RunOutcome run_scene(Scene scene, const std::string& script, const std
                                const RunCommand& command) {
   analysis::RunOptions run;
   run.directory = directory;
+  run.scene_path = std::filesystem::absolute(scene.file).lexically_normal().string();
+  run.arguments = kept_arguments(command);
   run.notes = notes;
   run.override_arguments = override_arguments(command);
   if (command.twin_noise > 0)
@@ -201,7 +204,7 @@ int complete(Script& script, const std::string& path, const std::string& directo
   StudiesOutcome studies;
   if (whole && command.study.empty() && command.studies) studies = run_studies(script, path, directory, command, interrupted);
   if (studies.interrupted) {
-    tell(stderr, "interrupted; finished runs of the studies are kept: continue with --resume");
+    tell(stderr, "interrupted; finished runs of the studies are kept; go on: " + resume_line(directory));
     return exit_interrupted;
   }
   if (whole && command.twin) {
@@ -218,6 +221,7 @@ int complete(Script& script, const std::string& path, const std::string& directo
   for (const auto& message : failures) tell(stderr, message);
   if (whole && command.figures) draw_performance_point(script.scene(), directory, outcome);
   if (!command.output.quiet) print_summary(script.scene(), directory, metrics, verdicts, studies.troubles.size());
+  if (!command.output.quiet && (status == "stopped" || status == "interrupted")) say("go on: {}\n", resume_line(directory));
   if (command.profile) say("{}", profile_text(outcome));
   int code = exit_code(script.scene(), command, outcome, metrics, verdicts);
   if (code == exit_ok && !(failures.empty() && studies.troubles.empty())) code = exit_usage;
@@ -240,15 +244,15 @@ int no_room(const WriteError& trouble, const std::string& directory) {
   std::error_code ignored;
   const bool checkpoint = std::filesystem::is_regular_file(run_file(directory, "checkpoint.bin"), ignored);
   tell(stderr, fmt::format("{}; make room, or raise the limit that is reached, and {}", trouble.what(),
-                           checkpoint ? "go on from the last checkpoint with --resume" : "start anew with --force"));
+                           checkpoint ? "go on from the last checkpoint: " + resume_line(directory) : "start anew with --force"));
   return checkpoint ? exit_stopped : exit_usage;
 }
 
 }  // namespace
 
 int verb_run(const RunCommand& wish) {
-  RunCommand command = wish;
-  if (command.words.size() != 1) throw Error(fmt::format("run takes one scene, not {}; erbs test runs several", command.words.size()));
+  if (wish.words.size() != 1) throw Error(fmt::format("run takes one scene, not {}; erbs test runs several", wish.words.size()));
+  RunCommand command = with_kept_arguments(wish);
   // a path that begins with "-" would be an option to other programs
   const auto no_option = [](const std::string& name) { return name.starts_with("-") ? "./" + name : name; };
   const std::string path = no_option(command.words.front());

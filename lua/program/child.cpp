@@ -1,5 +1,8 @@
 #include "lua/program/child.h"
 
+#include <algorithm>
+#include <cctype>
+#include <cstring>
 #include <filesystem>
 
 #include "engine/base/error.h"
@@ -30,6 +33,17 @@ int run_renderer(const std::vector<std::string>& arguments) {
 void check_programs(const std::vector<std::string>& names) {
   for (const std::string& name : names)
     if (!can_start(name)) throw Error(fmt::format("the program {} is not there; {}", name, remedy_of(name)));
+}
+
+std::string shell_quoted(const std::string& word) {
+  std::string out = "'";
+  for (const char c : word) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return out + "'";
+}
+
+std::string shell_word(const std::string& word) {
+  const bool plain = std::all_of(word.begin(), word.end(), [](unsigned char c) { return std::isalnum(c) || std::strchr("/._-+%=", c); });
+  return plain ? word : shell_quoted(word);
 }
 
 }  // namespace erbs::lua

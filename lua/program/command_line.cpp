@@ -1,5 +1,7 @@
 #include "lua/program/command_line.h"
 
+#include <algorithm>
+
 #include "engine/record/results/limits.h"
 
 namespace erbs::lua {
@@ -8,13 +10,13 @@ namespace {
 void add_run(CLI::App& app, RunCommand& command) {
   CLI::App& run = *app.add_subcommand("run", "run a scene into a folder of results");
   SceneChanges& changes = command.changes;
-  run.add_option("SCENE.lua", command.words, "the scene")->required()->expected(1);
+  run.add_option("SCENE.lua|DIR", command.words, "the scene, or with --resume the folder of its run")->required()->expected(1);
   add_output(run, command.output);
   add_scene(run, command.scene);
   run.add_option("--threads", command.threads, "threads (default: as many as the machine has, 1 for few blocks)")->check(within(1, 1024));
   run.add_option("-j", command.jobs, "runs of its studies at once (default: --threads, else one per processor)")->check(within(1, 1024));
   add_time(run, "--until", command.until, "stop at this simulated time, with a checkpoint", "T");
-  run.add_flag("--resume", command.resume, "continue from the checkpoint in the folder");
+  run.add_flag("--resume", command.resume, "continue from the checkpoint in the folder; erbs run DIR --resume needs no other option");
   add_max_wall(run, command.max_wall, "stop after this wall-clock time, with a checkpoint", "30m");
   add_time(run, "--checkpoint-every", command.checkpoint_every, "wall-clock time between checkpoints (default 60s)", "60s");
   run.add_option("--dt-fraction", changes.dt_fraction, "time step as a share of dt_critical, whatever the scene says")
@@ -334,6 +336,15 @@ void add_verbs(CLI::App& app, CommandLine& line) {
   add_compare(app, line.compare);
   add_limit(app, line.limit);
   add_capacity(app, line.capacity);
+}
+
+RunCommand read_run(std::vector<std::string> words) {
+  RunCommand command;
+  CLI::App app;
+  add_run(app, command);
+  std::ranges::reverse(words);  // CLI11 takes them from the back
+  app.parse(std::move(words));
+  return command;
 }
 
 }  // namespace erbs::lua

@@ -29,4 +29,7 @@ struct CommandLine {
 
 void add_verbs(CLI::App& app, CommandLine& line);
 
+// A command of erbs run from its words. Throws CLI::ParseError or Error.
+RunCommand read_run(std::vector<std::string> words);
+
 }  // namespace erbs::lua

@@ -101,13 +101,15 @@ Vec3 vec3(const Json& json) { return {number(json.at(0)), number(json.at(1)), nu
 Json json_of_manifest(const Manifest& m) {
   Json j = {{"program", "erbs"}, {"version", m.version}, {"git_hash", m.git_hash}, {"compiler", m.compiler},
             {"isa", m.isa},      {"threads", m.threads}, {"started", m.started}};
-  j["scene"] = {{"name", m.scene_name}, {"title", m.title}, {"file", m.scene_file}, {"hash", m.scene_hash}, {"labels", m.labels}};
+  j["scene"] = {{"name", m.scene_name}, {"title", m.title},     {"file", m.scene_file},
+                {"path", m.scene_path}, {"hash", m.scene_hash}, {"labels", m.labels}};
   j["params"] = Json::array();
   for (const Param& p : m.params)
     j["params"].push_back({{"name", p.name}, {"value", p.value}, {"default", p.fallback}, {"unit", p.unit}, {"text", p.text}});
   j["notes"] = m.notes;
   j["inputs"] = m.inputs;
   j["effects"] = {{"on", m.effects_on}, {"off", m.effects_off}};
+  j["arguments"] = m.arguments;
   j["departures"] = m.override_arguments;
   j["dt_s"] = m.dt;
   j["dt_rule"] = m.dt_rule;
@@ -146,6 +148,7 @@ Manifest manifest_of_json(const Json& j) {
   m.threads = j.at("threads"), m.started = j.at("started");
   const Json& scene = j.at("scene");
   m.scene_name = scene.at("name"), m.title = scene.at("title"), m.scene_file = scene.at("file"), m.scene_hash = scene.at("hash");
+  m.scene_path = scene.value("path", "");
   if (scene.contains("labels")) m.labels = scene["labels"].get<std::vector<std::string>>();
   for (const Json& p : j.at("params"))
     m.params.push_back({p.at("name"), number(p.at("value")), number(p.at("default")), p.at("text"), p.at("unit"), {}});
@@ -153,6 +156,7 @@ Manifest manifest_of_json(const Json& j) {
   m.inputs = j.at("inputs").get<std::map<std::string, std::string>>();
   m.effects_on = j.at("effects").at("on").get<std::vector<std::string>>();
   m.effects_off = j.at("effects").at("off").get<std::vector<std::string>>();
+  if (j.contains("arguments")) m.arguments = j["arguments"].get<std::vector<std::string>>();
   if (j.contains("departures")) m.override_arguments = j["departures"].get<std::vector<std::string>>();
   m.dt = number(j.at("dt_s")), m.dt_rule = j.at("dt_rule");
   m.dt_critical = number(j.at("dt_critical_s")), m.dt_block_bound = number(j.at("dt_block_bound_s"));

@@ -22,6 +22,8 @@ struct Manifest {
   std::vector<std::string> effects_on, effects_off;
   double duration = 0, output_dt = 0, frame_dt = 0;    // s
   double dt = 0, dt_critical = 0, dt_block_bound = 0;  // s
+  std::string scene_path;                              // absolute
+  std::vector<std::string> arguments;                  // command-line options besides overrides that a resumption needs
   std::vector<std::string> override_arguments;         // command-line overrides of the scene
   std::string dt_rule;
   Vec3 gravity = Vec3::Zero();  // m/s2

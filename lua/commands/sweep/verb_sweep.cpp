@@ -2,10 +2,8 @@
 #include <sys/stat.h>
 
 #include <algorithm>
-#include <cctype>
 #include <chrono>
 #include <cstdio>
-#include <cstring>
 #include <filesystem>
 #include <thread>
 
@@ -19,6 +17,7 @@
 #include "engine/study/sweep/ranks.h"
 #include "engine/study/sweep/sweep_figure.h"
 #include "lua/commands/sweep/sweep_study.h"
+#include "lua/program/child.h"
 #include "lua/program/progress.h"
 #include "lua/program/say.h"
 #include "lua/program/sweep_printer.h"
@@ -107,18 +106,6 @@ void await_folder(const SweepStudy& study, const study::Ranks& ranks) {
                           study.sweep.directory));
 }
 
-std::string quoted(const std::string& word) {
-  std::string out = "'";
-  for (const char c : word) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return out + "'";
-}
-
-// As sbatch reads it in a comment of the script, and a shell at the prompt: plain, or in quotes.
-std::string where_needed(const std::string& word) {
-  const bool plain = std::all_of(word.begin(), word.end(), [](unsigned char c) { return std::isalnum(c) || std::strchr("/._-+%", c); });
-  return plain ? word : quoted(word);
-}
-
 // A job array whose tasks share the study. Each takes the points that nobody has taken, whatever its number.
 int write_job(const SweepStudy& study, const SweepCommand& command) {
   const study::Plan& plan = study.sweep.plan;
@@ -130,21 +117,21 @@ int write_job(const SweepStudy& study, const SweepCommand& command) {
   for (const auto& [name, expression] : command.scene.overrides) words.insert(words.end(), {"-D", name + "=" + expression});
   for (const std::string& word : permissions(command.scene)) words.push_back(word);
   std::string line;
-  for (const std::string& word : words) line += (line.empty() ? "" : " ") + quoted(word);
+  for (const std::string& word : words) line += (line.empty() ? "" : " ") + shell_quoted(word);
   std::string text = fmt::format(
       "#!/bin/sh\n# {} points of {} in {} tasks. Submit it by: sbatch {}\n# A task that dies is no loss: submit the script again. "
       "results.csv "
       "is complete and sorted once the last task has ended.\n",
-      points, study.name, tasks, where_needed(directory + "/job.sh"));
+      points, study.name, tasks, shell_word(directory + "/job.sh"));
   text += fmt::format("#SBATCH --job-name={}\n#SBATCH --array=0-{}\n#SBATCH --ntasks=1\n#SBATCH --cpus-per-task=1\n", file_stem(study.name),
                       tasks - 1);
-  text += fmt::format("#SBATCH --output={}\n", where_needed(directory + "/job_logs/%a.log"));
+  text += fmt::format("#SBATCH --output={}\n", shell_word(directory + "/job_logs/%a.log"));
   if (plan.memory > 0) text += fmt::format("#SBATCH --mem={:.0f}M\n", plan.memory / 1e6 + 200);
   text += "exec " + line + " --quiet\n";
   fs::create_directories(directory + "/job_logs");
   write_text_atomically(directory + "/job.sh", text);
   ::chmod((directory + "/job.sh").c_str(), 0755);
-  say("{} points in {} tasks: sbatch {}\n", points, tasks, where_needed(directory + "/job.sh"));
+  say("{} points in {} tasks: sbatch {}\n", points, tasks, shell_word(directory + "/job.sh"));
   return exit_ok;
 }
 

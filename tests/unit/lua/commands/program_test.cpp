@@ -78,6 +78,57 @@ TEST_CASE("a run stopped by --until ends with 3, and --resume ends as one run wo
   CHECK(read_json(bench.out() + "/metrics.json")["state_hash"] == whole["state_hash"]);
 }
 
+TEST_CASE("a stopped run says how to go on, and needs nothing but its folder, from wherever it is called", "[program][resume]") {
+  Bench bench;
+  const std::vector<std::string> options{"-D", "duration=0.2", "--set", "output_dt=4*ms", "--no-figures"};
+  REQUIRE(bench.run(falling_brick, options) == 0);
+  const Json whole = read_json(bench.out() + "/metrics.json");
+  // The scene and its folder are named from where the run is started.
+  const auto in_shell = [&](const std::string& folder, const std::string& line) {
+    fs::create_directories(bench.folder / folder);
+    const std::string program = test::in_build("/erbs");
+    const std::string text = "cd '" + (bench.folder / folder).string() + "' && erbs() { '" + program + "' \"$@\"; } && " + line;
+    const int code = wait_for(start({"/bin/sh", "-c", text}, (bench.folder / "log").string()));
+    bench.said = text_of(bench.folder / "log");
+    return code;
+  };
+  CHECK(in_shell(".", "erbs run scene.lua -o 'its part' -D duration=0.2 --set 'output_dt=4*ms' --no-figures --until 0.05") == 3);
+  INFO(bench.said);
+  CHECK(contains(bench.said, "go on: erbs run 'its part' --resume\n"));
+  CHECK(in_shell("elsewhere", "erbs run '../its part' --resume --until 0.1 --no-figures --threads 1") == 3);
+  CHECK(contains(bench.said, "go on: erbs run '../its part' --resume\n"));
+  CHECK(in_shell("elsewhere", "erbs run '../its part' --resume --no-figures -q") == 0);
+  const std::string part = (bench.folder / "its part").string();
+  const Json metrics = read_json(part + "/metrics.json"), manifest = read_json(part + "/manifest.json");
+  CHECK(metrics["status"] == "completed");
+  CHECK(metrics["state_hash"] == whole["state_hash"]);
+  CHECK(text_of(part + "/histories.csv") == text_of(bench.out() + "/histories.csv"));
+  CHECK(manifest["departures"] == Json::array({"--set", "output_dt=4*ms"}));
+  CHECK(manifest["arguments"] == Json::array({"-D", "duration=0.2", "--threads", "1"}));
+}
+
+TEST_CASE("what a run folder says of its run cannot be said again, and a scene that is gone is named", "[program][resume]") {
+  Bench bench;
+  REQUIRE(bench.run(falling_brick, {"--until", "0.05", "-D", "duration=0.2", "--no-figures"}) == 3);
+  CHECK(bench.erbs({"run", bench.out()}) == 2);
+  CHECK(contains(bench.said, "is the folder of a run, not a scene; to go on with that run: erbs run " + bench.out() + " --resume"));
+  for (const std::vector<std::string>& more :
+       {std::vector<std::string>{"-D", "duration=0.2"}, {"-o", bench.out()}, {"--set", "levels=1"}, {"--allow-unstable"}}) {
+    std::vector<std::string> words{"run", bench.out(), "--resume"};
+    words.insert(words.end(), more.begin(), more.end());
+    CHECK(bench.erbs(words) == 2);
+    INFO(bench.said);
+    CHECK(contains(bench.said, more.front()));
+    CHECK(contains(bench.said, "a run that is resumed by its folder keeps its scene, options and folder"));
+  }
+  fs::rename(bench.folder / "scene.lua", bench.folder / "moved.lua");
+  CHECK(bench.erbs({"run", bench.out(), "--resume"}) == 2);
+  CHECK(contains(bench.said, "the scene " + (bench.folder / "scene.lua").string() + " of the run in "));
+  CHECK(contains(bench.said, "name its new place: erbs run SCENE.lua -o " + bench.out() + " --resume -D duration=0.2"));
+  CHECK(bench.erbs({"run", (bench.folder / "moved.lua").string(), "-o", bench.out(), "--resume", "-D", "duration=0.2", "--no-figures"}) ==
+        0);
+}
+
 TEST_CASE("an interrupt ends with 130 and a checkpoint", "[program]") {
   Bench bench;
   const Child child = start(bench.command({"run", bench.scene(falling_brick), "-o", bench.out(), "-D", "duration=100000"}),
