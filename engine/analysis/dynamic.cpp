@@ -100,7 +100,7 @@ void Run::begin() {
   WriterProgress written;
   if (resume) {
     const std::vector<std::size_t> sizes = sizes_of(run_.state);
-    read_checkpoint(options_.directory, key_, run_.state, written, collapse_, output_, diagnostics_);
+    read_checkpoint(options_.directory, key_, run_.state, written, collapse_, output_, diagnostics_, run_.equilibrium);
     check_sizes(options_.directory, sizes, run_.state);
     collapse_.supports.ride = rides_of(run_.model);
   } else {
@@ -186,7 +186,7 @@ void Run::show_end() {
 void Run::save() {
   const double began = seconds();
   take_events(output_.joints, *solver_);
-  write_checkpoint(options_.directory, key_, run_.state, writer_->progress(), collapse_, output_, diagnostics_);
+  write_checkpoint(options_.directory, key_, run_.state, writer_->progress(), collapse_, output_, diagnostics_, run_.equilibrium);
   last_save_ = seconds();
   record_ += last_save_ - began;
 }

@@ -87,7 +87,7 @@ void PushRun::begin() {
   for (const Block& block : scene_.blocks) group_.push_back(block.group);
   if (resume) {
     const std::vector<std::size_t> sizes = sizes_of(run_.state);
-    read_checkpoint(options_.directory, key_, run_.state, written, collapse_, so_far_);
+    read_checkpoint(options_.directory, key_, run_.state, written, collapse_, so_far_, run_.equilibrium);
     check_sizes(options_.directory, sizes, run_.state);
     collapse_.supports.ride = rides_of(run_.model);
   } else {
@@ -196,7 +196,7 @@ void PushRun::save_when_due() {
 }
 
 void PushRun::save(const WriterProgress& written) {
-  write_checkpoint(options_.directory, key_, run_.state, written, collapse_, so_far_);
+  write_checkpoint(options_.directory, key_, run_.state, written, collapse_, so_far_, run_.equilibrium);
   last_save_ = seconds();
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 #include <cstdint>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "engine/model/model.h"
@@ -17,6 +18,15 @@ struct Equilibrium {
   int given_up = 0;                 // number of islands without equilibrium
   std::string why;                  // reason, for the worst of these
 };
+
+// What metrics.json says of it, also at the end of a resumed run.
+template <class E, class F>
+requires std::is_same_v<std::remove_const_t<E>, Equilibrium>
+void each(E& e, F&& f) {
+  f("iterations", e.iterations);
+  f("unbalanced", e.unbalanced);
+  f("given_up", e.given_up);
+}
 
 // Solution of the linear systems in Newton's method: sparse factors, or matrix-free iterations (two_level.h). `by_size` takes iterations if
 // factors would need more than 100 MiB. Iterations that do not converge fall back on factors.

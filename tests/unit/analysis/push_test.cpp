@@ -80,6 +80,8 @@ TEST_CASE("an interrupted push that is resumed gives the same curve, to the bit"
     CHECK(got.metrics.status == "completed");
     CHECK(got.metrics.state_hash == expected.metrics.state_hash);
     CHECK(got.curve == expected.curve);
+    CHECK(got.metrics.equilibrium.iterations == expected.metrics.equilibrium.iterations);
+    CHECK(got.metrics.equilibrium.unbalanced == expected.metrics.equilibrium.unbalanced);
     CHECK(got.metrics.capacity->peak.multiplier == expected.metrics.capacity->peak.multiplier);
     for (const char* file : {"/histories.csv", "/events.csv"}) CHECK(text_of(parts.path + file) == text_of(whole.path + file));
   }

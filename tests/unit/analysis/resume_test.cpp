@@ -71,6 +71,7 @@ void stop_and_go(const char* text, const std::vector<double>& times) {
   const Metrics expected = run(text, whole.path, Existing::refuse, {});
   CHECK(expected.status == "completed");
   CHECK(expected.joints_broken > 0);
+  CHECK(expected.equilibrium.iterations > 0);
   Existing existing = Existing::refuse;
   for (const double until : times) {
     const Metrics stopped = run(text, parts.path, existing, until);
@@ -87,6 +88,8 @@ void stop_and_go(const char* text, const std::vector<double>& times) {
   CHECK(got.state_hash == expected.state_hash);
   CHECK(got.energy == expected.energy);
   CHECK(got.residual_relative == expected.residual_relative);
+  CHECK(got.equilibrium.iterations == expected.equilibrium.iterations);
+  CHECK(got.equilibrium.unbalanced == expected.equilibrium.unbalanced);
   for (const char* name : {"/histories.csv", "/energy.csv", "/events.csv"})
     CHECK(test::text_of(parts.path + name) == test::text_of(whole.path + name));
 }
