@@ -60,6 +60,7 @@ struct TimeStep {
   double dt_target = 0;         // s, target step of the run; dt may be shorter while contacts change
   int steps_since_limited = 0;  // steps since contacts last limited dt
   double event_dt = 0;          // s, step allowed by the next openings and closings (event_bound.h); 0: any
+  long bonds_due = 0;           // step at which bonds are next asked whether they are about to break
   // Levels (model/levels.h): all interactions act at the start of a macro step of `substeps` steps, of which `substep` is the next.
   long macro = 0;  // macro steps before this one
   int substep = 0, substeps = 1, last_substeps = 1, next_substeps = 1;

@@ -15,8 +15,8 @@ template <class S, class F>
 requires std::is_same_v<std::remove_const_t<S>, State>
 void each(S& state, F&& f) {
   auto& [time, pose, motion, topology, joints, contacts, sleep, cache, energy, tilt, observed] = state;
-  auto& [step, start_step, start_t, t, dt, last_dt, dt_target, steps_since_limited, event_dt, macro, substep, substeps, last_substeps,
-         next_substeps, next_dt, fast_dt, slow_dt, slow_event_dt, macro_steps_since_limited] = time;
+  auto& [step, start_step, start_t, t, dt, last_dt, dt_target, steps_since_limited, event_dt, bonds_due, macro, substep, substeps,
+         last_substeps, next_substeps, next_dt, fast_dt, slow_dt, slow_event_dt, macro_steps_since_limited] = time;
   auto& [u, q] = pose;
   auto& [v, spin_momentum, w] = motion;
   auto& [island, grounded, joined, unjoined, loose] = topology;
@@ -62,6 +62,7 @@ void each(S& state, F&& f) {
   f("dt_target", dt_target, Part::carried);
   f("steps_since_limited", steps_since_limited, Part::carried);
   f("event_dt", event_dt, Part::carried);
+  f("bonds_due", bonds_due, Part::carried);
   f("macro", macro, Part::carried);
   f("substep", substep, Part::carried);
   f("substeps", substeps, Part::carried);

@@ -103,6 +103,7 @@ class Solver {
   void set_dt(double dt);
   void lap(Phase phase);
   double event_rate_of_first_openings() const;
+  double event_rate_of_breaks();
   double event_rate_at_start() const;
   void foresee_events();
   bool may_grow(double from, double dt, Part part) const;

@@ -35,6 +35,31 @@ JointMotion joint_motion(const Model& m, const State& s, int j) {
   return out;
 }
 
+// Steps after which a bond may break if its blocks go on as they move: `soonest` times a power of two, or `latest`, not before that.
+constexpr int soonest = 32;
+int steps_to_break(const PointLaw& law, const JointType& type, const JointMotion& now, double dt, int latest) {
+  const auto limits = scalar::yield_limits(law);
+  for (int steps = soonest; steps < latest; steps *= 2) {
+    double gap[6];
+    for (int i = 0; i < 6; ++i) gap[i] = now.gap[i] + steps * dt * now.rate[i];
+    if (scalar::face_bound(limits, gap, type.half_s, type.half_t, type.radius) > 0) return steps;
+  }
+  return latest;
+}
+
+// Event rate (1/s) of a bond that is about to break. Freed of it, its blocks swing with the energy E that it stores, at most as fast as the
+// step was chosen for, and open or close again within half a swing. Each such event errs by up to E (omega dt)^2 / 4. 0 for blocks that
+// swing already: their next steps are past prediction.
+double break_rate(const JointType& type, const JointMotion& now, double omega, double allowance) {
+  constexpr double still = 0.01;  // of the stored energy, at most, in a swing
+  double stored = 0, power = 0;   // J; J/s2
+  for (int i = 0; i < 6; ++i) {
+    stored += 0.5 * type.stiffness[i] * now.gap[i] * now.gap[i];
+    power += type.stiffness[i] * now.rate[i] * now.rate[i];
+  }
+  return power > still * 2 * stored * omega * omega ? 0 : omega * std::sqrt(event_share * 2 * stored / allowance);
+}
+
 // Rounds dt down to a scale of 32 steps per octave. Differences in the last digits, as sleeping blocks cause them, then leave dt equal.
 double on_scale(double dt) { return std::exp2(std::floor(32 * std::log2(dt)) / 32); }
 
@@ -160,6 +185,31 @@ double Solver::event_rate_of_first_openings() const {
   return event_rate / dt;
 }
 
+// The same of bonds that are about to break under loads that grow slowly. They break when the structure is nearly still, and set it
+// swinging: a step that is short by then costs nothing, one that shortens afterwards errs by as much as it saves. So it is left as it is
+// where its change would err by a hundredth of that.
+double Solver::event_rate_of_breaks() {
+  constexpr int most_joints = 256;  // the energy of one bond is little among more, and asking them takes a part of the step
+  TimeStep& time = state_.time;
+  const double dt = time.last_dt, allowance = event_allowance(model_, state_);
+  if (model_.njoint > most_joints || time.step < time.bonds_due || !(dt > 0) || !(allowance > 0) || model_.analysis.start == "rest")
+    return 0;
+  double rate = 0;
+  const int latest = 4 * std::clamp(2 * model_.njoint, 16, 128);  // steps; asking then takes at most a twentieth of the time
+  int next = latest;
+  for (int j = 0; j < model_.njoint; ++j) {
+    const JointType& type = *model_.joint[z(j)].type;
+    const PointLaw& law = model_.laws[z(type.law)];
+    if (state_.joints.stage[z(j)] != JointStage::intact || !law.has_bond()) continue;
+    const JointMotion now = joint_motion(model_, state_, j);
+    const int steps = steps_to_break(law, type, now, dt, latest);
+    next = std::min(next, steps);
+    if (steps == soonest) rate = std::max(rate, break_rate(type, now, 2 / time.dt_target, allowance));
+  }
+  time.bonds_due = time.step + next / 4;
+  return rate * dt > 1 && vibration(Part::all) / 8 < 0.01 * rate * rate * allowance ? rate : 0;
+}
+
 // Event rate (1/s) of intact joints whose blocks move apart or together at the start, so fast that in two steps they may yield, at once or
 // as they swing back: until they have cracked nothing else predicts them. They err as one-sided springs do, each by its whole stiffness.
 double Solver::event_rate_at_start() const {
@@ -186,7 +236,7 @@ double Solver::event_rate_at_start() const {
 // Time step that the next openings and closings allow (`event_bound.h`).
 void Solver::foresee_events() {
   double event_rate = joints_.take_event_rate();
-  const double first = event_rate_of_first_openings();
+  const double first = std::max(event_rate_of_first_openings(), event_rate_of_breaks());
   if (!(budget_ > 0)) {
     if (first > 0) state_.time.event_dt = state_.time.event_dt > 0 ? std::min(state_.time.event_dt, 1 / first) : 1 / first;
     return;
