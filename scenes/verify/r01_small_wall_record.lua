@@ -46,7 +46,8 @@ metric("first_crack_s", "s", function(run) return run.first_crack and run.first_
 -- A regression, from a run of the fast kernel. Round-off changes the numbers through the cracks: the peak shear is one sample of a
 -- vibration at the joints' own frequency.
 expect("metrics.bricks", 45, { abs = 0, source = "regression" })
-expect("metrics.drift_peak", 2.2304e-5, { rel = 0.01, source = "regression" })
+-- 2.222e-5 at .03 of the step limit. Cracks move it: 2.216 to 2.246e-5 at .1 to .3 of the limit, 2.226 and 2.284e-5 at the default step.
+expect("metrics.drift_peak", 2.222e-5, { rel = 0.035, source = "limit of finer steps" })
 expect("metrics.base_shear_peak_of_weight", 0.79257, { rel = 0.04, source = "regression" })
 expect("metrics.damage_end", 0.06527, { abs = 0.01, source = "regression" })
 expect("metrics.first_crack_s", 1.18602, { abs = 1e-3, source = "regression" })  -- a step is 8e-5 s, a row 2e-3 s
