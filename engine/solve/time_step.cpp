@@ -195,7 +195,7 @@ double Solver::event_rate_of_breaks() {
   if (model_.njoint > most_joints || time.step < time.bonds_due || !(dt > 0) || !(allowance > 0) || model_.analysis.start == "rest")
     return 0;
   double rate = 0;
-  const int latest = 4 * std::clamp(2 * model_.njoint, 16, 128);  // steps; asking then takes at most a twentieth of the time
+  const int latest = 4 * std::clamp(2 * model_.njoint, 16, 128);  // steps; asking a structure at rest takes a twentieth of its time
   int next = latest;
   for (int j = 0; j < model_.njoint; ++j) {
     const JointType& type = *model_.joint[z(j)].type;
@@ -203,10 +203,11 @@ double Solver::event_rate_of_breaks() {
     if (state_.joints.stage[z(j)] != JointStage::intact || !law.has_bond()) continue;
     const JointMotion now = joint_motion(model_, state_, j);
     const int steps = steps_to_break(law, type, now, dt, latest);
-    next = std::min(next, steps);
-    if (steps == soonest) rate = std::max(rate, break_rate(type, now, 2 / time.dt_target, allowance));
+    const double breaks = steps < latest ? break_rate(type, now, 2 / time.dt_target, allowance) : 0;
+    if (breaks > 0) next = std::min(next, steps);
+    if (steps == soonest) rate = std::max(rate, breaks);
   }
-  time.bonds_due = time.step + next / 4;
+  time.bonds_due = time.step + next / (next == soonest ? 2 : 4);
   return rate * dt > 1 && vibration(Part::all) / 8 < 0.01 * rate * rate * allowance ? rate : 0;
 }
 
