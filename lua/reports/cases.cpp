@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <fstream>
 #include <set>
+#include <sstream>
 
 #include "engine/base/system/affinity.h"
 #include "engine/base/system/interrupt.h"
@@ -22,15 +23,20 @@ namespace {
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
+// Whether the text calls expect(), expect_image() or expect_stored(), or asks converge{} for a slope.
 bool carries_expectations(const fs::path& path) {
-  const std::string text = whole_text(path);
-  for (size_t at = text.find("expect"); at != std::string::npos; at = text.find("expect", at + 1)) {
-    const size_t word_end = text.find_first_not_of("abcdefghijklmnopqrstuvwxyz_", at + 6);  // expect, expect_image, expect_stored
-    const size_t next = text.find_first_not_of(" \t", word_end);
-    const size_t line = text.rfind('\n', at) + 1;  // npos + 1 is 0
-    if (next != std::string::npos && (text[next] == '(' || text[next] == '=') &&
-        text.substr(line, at - line).find("--") == std::string::npos)
-      return true;
+  std::istringstream lines(whole_text(path));
+  bool converges = false;
+  for (std::string line; std::getline(lines, line);) {
+    line.resize(std::min(line.size(), line.find("--")));
+    const auto follows = [&](size_t word_end, const char* one_of) {
+      const size_t next = line.find_first_not_of(" \t", word_end);
+      return next != std::string::npos && std::string_view(one_of).find(line[next]) != std::string_view::npos;
+    };
+    for (size_t at = line.find("expect"); at != std::string::npos; at = line.find("expect", at + 1))
+      if (follows(line.find_first_not_of("abcdefghijklmnopqrstuvwxyz_", at + 6), "(=")) return true;
+    converges = converges || line.find("converge") != std::string::npos;
+    if (const size_t at = line.find("slope"); converges && at != std::string::npos && follows(at + 5, "=")) return true;
   }
   return false;
 }

@@ -73,6 +73,21 @@ TEST_CASE("the book holds every case, those that fail with their reason", "[prog
   CHECK(contains(readme, "Below"));
 }
 
+TEST_CASE("a slope asked of converge{} makes a scene of a folder a case, a comment or another slope does not", "[program]") {
+  Bench bench;
+  namespace fs = std::filesystem;
+  fs::create_directories(bench.folder / "cases");
+  const std::string drop = falling + "local h = param('h', 1, '')\nconverge{ param = 'h', values = { 1, .5, .25 },\n";
+  const std::string error = "  error = function(run) return run.time_s * h end }\n";
+  bench.write("cases/v01_order.lua", drop + "  slope = -1,\n" + error);
+  bench.write("cases/v02_commented.lua", drop + "  -- slope = 1 or expect(1)\n" + error);
+  bench.write("cases/v03_roof.lua", falling + "local slope = 3\n");
+  bench.erbs({"test", (bench.folder / "cases").string(), "-o", bench.out()});
+  INFO(bench.said);
+  CHECK(contains(bench.said, "v01_order"));
+  CHECK(contains(bench.said, "of 1 cases"));
+}
+
 TEST_CASE("the grid tells the worst of each invariant, keeps what is done, and honours fixed steps and limits of use", "[program]") {
   Bench bench;
   const std::string stack = R"(
