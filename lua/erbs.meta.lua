@@ -250,7 +250,7 @@ function masonry_stiffness(keys) end
 ---@field pressure? "face"|"points" what bears: the face, its pressure integrated in closed form, or the contact points, each with its share of the area, as the sub-contacts of point-contact models do (rule = "trapezoid", points = 4: the corners); they let a block hinge on its very edge [default face]
 ---@field none? boolean pairs that match get no joint [default false]
 ---@field optional? boolean a group it names may have no blocks in this variant of the scene [default false]
----@field points? integer|integer[] contact points: { along the longer side, along the shorter side }, or one square number [1 to 64; default { 3, 3 }]
+---@field points? integer|integer[] contact points: { along the longer side, along the shorter side }, or one square number; with rule = "simpson", 2 along a side are those of gauss, .289 of the side from its middle: with pressure = "points" a block then hinges inside its edge [1 to 64; default { 3, 3 }]
 
 ---Joins faces that face each other at rest by a law. The last rule that matches a pair of blocks applies.
 ---@param keys erbs.joint_keys

@@ -108,8 +108,10 @@ int answer(CLI::App& app, CommandLine& line, int argc, char** argv) {
     chosen_isa();  // refuses an unknown ERBS_ISA
     return call(app, line);
   } catch (const CLI::ParseError& error) {
-    if (error.get_exit_code() == 0) return app.exit(error);                    // --help
-    return wrong(fmt::format("{}; see erbs help {}", error.what(), argv[1]));  // check_verb() knows it
+    if (error.get_exit_code() == 0) return app.exit(error);  // --help
+    const std::string_view first = argv[1];                  // check_verb() knows it, unless it is an option
+    return wrong(
+        fmt::format("{}; see erbs help{}{}", error.what(), first.starts_with("-") ? "" : " ", first.starts_with("-") ? "" : first));
   } catch (const Interrupted& error) { return wrong(error.what(), exit_interrupted); } catch (const NumbersError& error) {
     return wrong(error.what(), exit_numbers);
   } catch (const std::filesystem::filesystem_error& error) {

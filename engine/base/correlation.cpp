@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/base/error.h"
+
 namespace erbs {
 namespace {
 
@@ -73,6 +75,8 @@ Lag lag_of(const Samples& first, const Samples& second, double reach) {
   if (curvature < 0) best.lag += 0.5 * step * (before - after) / curvature;
   return best;
 }
+
+std::string lag_text(double lag) { return fmt::format("{:.4f} s {}", std::abs(lag), lag < 0 ? "earlier" : "later"); }
 
 double first_motion(const Samples& signal, double share) {
   double peak = 0;

@@ -1,5 +1,6 @@
 // Two signals over time against each other: how much later one is, and when each begins to move.
 #pragma once
+#include <string>
 #include <vector>
 
 namespace erbs {
@@ -22,6 +23,8 @@ struct Lag {
 // values about the largest one refines it. That of a band-limited signal is even and smooth at its peak, so that the error falls with the
 // square of the step.
 Lag lag_of(const Samples& first, const Samples& second, double reach);
+
+std::string lag_text(double lag);  // "0.3000 s later", "0.3000 s earlier"
 
 // The time at which |y - y[0]| first passes a share of its peak, linear between samples; NaN for a constant signal.
 double first_motion(const Samples& signal, double share = 0.05);

@@ -247,7 +247,7 @@ void set_watch(std::vector<QuadraturePoint>& points, double weld) {
 
 LineRule line_rule(const std::string& rule, int n) {
   const int least = rule == "trapezoid" ? 2 : 1;
-  if (n < least || n > 64) throw Error(fmt::format("{} points a side with the rule {}: {} to 64 are possible", n, rule, least));
+  if (n < least || n > 64) throw Error(fmt::format("the rule {} takes {} to 64 points along a side, not {}", rule, least, n));
   if (rule == "simpson") return simpson_line(n);
   if (rule == "gauss") return gauss_line(n);
   LineRule r;

@@ -8,6 +8,7 @@
 #include <unordered_map>
 
 #include "engine/base/spelling.h"
+#include "engine/geometry/separation.h"
 #include "engine/laws/laws.h"
 #include "engine/scene/effects.h"
 #include "engine/scene/scene.h"
@@ -65,6 +66,36 @@ void check_materials(Report& report, const Scene& scene) {
     }
 }
 
+// Volume that two parts share would count twice in mass and inertia. The bound is that of two blocks; within 1e-6 of the block's size the
+// coordinates of a file in single precision say no more.
+void check_parts(Report& report, const Block& block) {
+  constexpr double most_shared = 1e-3;  // of the smaller edge
+  std::vector<Box> box;
+  std::vector<double> edge;
+  Box all = bounding_box(block.parts[0]);
+  for (const Polyhedron& part : block.parts) {
+    box.push_back(bounding_box(part)), edge.push_back(smallest_edge(part));
+    all = {all.low.cwiseMin(box.back().low), all.high.cwiseMax(box.back().high)};
+  }
+  size_t first = 0, second = 0;
+  int found = 0;
+  double deepest = 0, relative = 0;
+  for (size_t i = 0; i < box.size(); ++i)
+    for (size_t j = i + 1; j < box.size(); ++j) {
+      if ((box[i].low.array() > box[j].high.array()).any() || (box[j].low.array() > box[i].high.array()).any()) continue;
+      const double smaller = std::min(edge[i], edge[j]), depth = -separation(block.parts[i], block.parts[j], 0).gap;
+      if (depth <= std::max(most_shared * smaller, 1e-6 * (all.high - all.low).norm())) continue;
+      ++found;
+      if (depth > relative * smaller) first = i + 1, second = j + 1, deepest = depth, relative = depth / smaller;
+    }
+  if (found == 0) return;
+  report.say(
+      block.place,
+      "block \"{}\": its parts {} and {} overlap by {:.3g} mm, {:.2g} of their smaller edge{}, and what they share would weigh twice; "
+      "cut them so that they only touch",
+      block.name, first, second, 1e3 * deepest, relative, found > 1 ? fmt::format(" ({} more overlap)", found - 1) : "");
+}
+
 void check_blocks(Report& report, const Scene& scene) {
   if (scene.blocks.empty()) report.say({scene.file, 0}, "the scene has no blocks; add box{{ ... }}, block{{ ... }} or wall{{ ... }}");
   std::set<std::string> names;
@@ -73,12 +104,15 @@ void check_blocks(Report& report, const Scene& scene) {
     if (block.material < 0 || block.material >= static_cast<int>(scene.materials.size()))
       report.say(block.place, "block \"{}\" has no material; add material = \"...\"", block.name);
     if (block.parts.empty()) report.say(block.place, "block \"{}\" has no shape; give size, or vertices", block.name);
+    bool sound = true;
     for (size_t i = 0; i < block.parts.size(); ++i) {
       const std::string problem = problem_of(block.parts[i]);
-      if (!problem.empty())
-        report.say(block.place, "block \"{}\"{}: {}; a block is made of closed convex parts, faces counter-clockwise seen from outside",
-                   block.name, block.parts.size() > 1 ? fmt::format(", part {}", i + 1) : "", problem);
+      if (problem.empty()) continue;
+      sound = false;
+      report.say(block.place, "block \"{}\"{}: {}; a block is made of closed convex parts, faces counter-clockwise seen from outside",
+                 block.name, block.parts.size() > 1 ? fmt::format(", part {}", i + 1) : "", problem);
     }
+    if (sound && block.parts.size() > 1) check_parts(report, block);
     check_fields(report, block.initial(), fmt::format("block \"{}\": initial", block.name), block.place);
     if (block.fixed && block.initial().given)
       report.say(block.place, "block \"{}\" is fixed and has an initial motion; remove one of them", block.name);
@@ -124,6 +158,11 @@ void check_joints(Report& report, const Scene& scene) {
   for (const JointRule& rule : scene.joint_rules) {
     if (!inside(rule.points_long, 1, 64) || !inside(rule.points_short, 1, 64))
       report.say(rule.place, "joint: points {} x {} is out of range; allowed is 1 to 64 along a side", rule.points_long, rule.points_short);
+    else if (rule.rule == "trapezoid" && std::min(rule.points_long, rule.points_short) < 2)
+      report.say(rule.place,
+                 "joint: points = {{ {}, {} }}, and rule = \"trapezoid\" has a point at each end of a side; give at least 2 along "
+                 "each, or leave the rule out",
+                 rule.points_long, rule.points_short);
     check_fields(report, rule, "joint", rule.place);
     if (rule.none) continue;
     std::visit(

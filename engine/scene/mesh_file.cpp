@@ -7,7 +7,9 @@
 #include <assimp/Importer.hpp>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 #include <map>
+#include <sstream>
 
 #include "engine/base/error.h"
 #include "engine/base/text.h"
@@ -23,16 +25,44 @@ Vec3 placed(const aiMatrix4x4& where, const aiVector3D& v) {
   return {static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z)};
 }
 
-// A closed surface uses each edge once in each direction.
-bool closed(const aiMesh& mesh) {
-  std::map<std::pair<unsigned, unsigned>, int> uses;
-  for (unsigned f = 0; f < mesh.mNumFaces; ++f)
-    for (unsigned i = 0; i < 3; ++i) ++uses[{mesh.mFaces[f].mIndices[i], mesh.mFaces[f].mIndices[(i + 1) % 3]}];
+std::string text_of(const Vec3& v) { return fmt::format("({:.4g}, {:.4g}, {:.4g})", v.x(), v.y(), v.z()); }
+
+// Names a triangle of no height: the library makes such ones of faces with three corners on a line, where they do no harm, and files have
+// them where a corner stands twice. Faces have no numbers after they were cut into triangles, so that the message gives a corner.
+std::string flat_face(const Polyhedron& triangles) {
+  for (const std::vector<int>& loop : triangles.faces) {
+    const auto corner = [&](size_t i) { return triangles.vertices[static_cast<size_t>(loop[i])]; };
+    const Vec3 a = corner(1) - corner(0), b = corner(2) - corner(0);
+    if (a.cross(b).norm() <= 1e-7 * std::max(a.squaredNorm(), b.squaredNorm()))
+      return fmt::format(" (a face at {} is flat, without area: remove it first)", text_of(corner(0)));
+  }
+  return "";
+}
+
+// A closed surface uses each edge once in each direction. Two uses in one direction are a face that is inside out.
+std::string open_edge(const Polyhedron& triangles) {
+  std::map<std::pair<int, int>, int> uses;
+  for (const std::vector<int>& loop : triangles.faces)
+    for (size_t i = 0; i < 3; ++i) ++uses[{loop[i], loop[(i + 1) % 3]}];
   for (const auto& [edge, count] : uses) {
     const auto back = uses.find({edge.second, edge.first});
-    if (count != 1 || back == uses.end() || back->second != 1) return false;
+    const int others = back == uses.end() ? 0 : back->second;
+    if (count == 1 && others == 1) continue;
+    const std::string where = fmt::format("at its edge from {} to {}", text_of(triangles.vertices[static_cast<size_t>(edge.first)]),
+                                          text_of(triangles.vertices[static_cast<size_t>(edge.second)]));
+    if (count + others > 2)
+      return fmt::format("is no simple surface: {} faces meet {}; remove faces that lie twice or inside, or split it", count + others,
+                         where);
+    if (count == 2) return fmt::format("has a face that is inside out {}; turn it, so that all faces look outward", where);
+    return fmt::format("is not a closed surface {}; close its holes", where);
   }
-  return true;
+  return "";
+}
+
+Polyhedron solid(const std::vector<Vec3>& corners, const std::string& what) {
+  try {
+    return hull(corners);
+  } catch (const Error& error) { throw Error(fmt::format("{}: {}", what, error.what())); }
 }
 
 Polyhedron convex_part(const aiMesh& mesh, const aiMatrix4x4& where, const std::string& what) {
@@ -51,8 +81,8 @@ Polyhedron convex_part(const aiMesh& mesh, const aiMatrix4x4& where, const std::
     loops.push_back({static_cast<int>(i[0]), static_cast<int>(i[1]), static_cast<int>(i[2])});
   }
   triangles.faces = std::move(loops);
-  if (!closed(mesh)) throw Error(fmt::format("{} is not a closed surface; close its holes", what));
-  const Polyhedron whole = hull(triangles.vertices);
+  if (const std::string defect = open_edge(triangles); !defect.empty()) throw Error(what + " " + defect + flat_face(triangles));
+  const Polyhedron whole = solid(triangles.vertices, what);
   const double volume = std::abs(mass_properties(triangles).volume), full = mass_properties(whole).volume;
   // Coordinates in these files are floats, exact to 1e-7 of the size. The volume may therefore be wrong by 1e-5.
   if (std::abs(volume - full) > 1e-5 * full)
@@ -83,19 +113,40 @@ class Confined : public Assimp::DefaultIOSystem {
   std::function<bool(const std::string&)> may_read_;
 };
 
-// The library could read other formats too, but they have axes and units of their own.
-void check_kind(const std::string& path) {
+// The ending, in small letters. The library could read other formats too, but they have axes and units of their own.
+std::string check_kind(const std::string& path) {
   std::string kind = std::filesystem::path(path).extension().string();
   for (char& c : kind) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   for (const char* known : {".obj", ".stl", ".ply", ".gltf", ".glb"})
-    if (kind == known) return;
+    if (kind == known) return kind;
   throw Error(fmt::format("cannot read the mesh {}: its ending is none of .obj, .stl, .ply, .gltf, .glb; export it as one of these", path));
+}
+
+// The library reads a .ply as its header says, with numbers of elements that the file cannot hold and without the end of the header too,
+// and then takes minutes. Each element needs a byte at least.
+void check_ply_header(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  const double bytes = static_cast<double>(std::filesystem::file_size(path));
+  std::string line;
+  constexpr int most_lines = 1000;
+  for (int i = 1; i <= most_lines && std::getline(file, line); ++i) {
+    std::istringstream words(line);
+    std::string word, name;
+    double elements = 0;
+    words >> word;
+    if (i == 1 && word != "ply") return;  // the library tells that it is of another kind
+    if (word == "end_header") return;
+    if (word == "element" && words >> name >> elements && elements > bytes)
+      throw Error(fmt::format("{}:{}: the header promises {:.15g} elements \"{}\", more than the file has bytes ({:.0f}); export it again",
+                              path, i, elements, shown(name, 30), bytes));
+  }
+  throw Error(fmt::format("{}: its header has no end (end_header), so that the file is cut or damaged; export it again", path));
 }
 
 }  // namespace
 
 std::vector<Polyhedron> read_mesh(const std::string& path, const std::function<bool(const std::string&)>& may_read) {
-  check_kind(path);
+  if (check_kind(path) == ".ply") check_ply_header(path);
   Assimp::Importer importer;
   importer.SetIOHandler(new Confined(may_read));  // the importer deletes it
   // Remove normals and texture coordinates first: vertices that differ in them alone would not be joined.

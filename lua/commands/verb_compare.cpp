@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <set>
 
+#include "engine/base/correlation.h"
 #include "engine/base/system/interrupt.h"
 #include "engine/base/system/process.h"
 #include "engine/record/folder/motion_file.h"
@@ -93,7 +94,7 @@ plot::Figure figure_of(const std::vector<ColumnPair>& pairs, const TimeShift& sh
   }
   std::string note = shift.how == Alignment::none
                          ? "times as recorded"
-                         : fmt::format("time of the reference; the run is {:+.4f} s later, by {}", shift.lag, words_of(shift.how));
+                         : fmt::format("time of the reference; the run is {}, by {}", lag_text(shift.lag), words_of(shift.how));
   if (pairs.size() > most_drawn) note += fmt::format("; {} of {} columns", most_drawn, pairs.size());
   if (scenes) note += note_of(*scenes);
   return curve_figure(curves, CurveKind::history, note);

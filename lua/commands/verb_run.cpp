@@ -56,6 +56,7 @@ std::vector<std::string> complete_metrics(Script& script, const std::string& pat
   for (const MetricValue& metric :
        script.evaluate_metrics({metrics, read_csv(run_file(directory, "histories.csv")), read_csv(run_file(directory, "events.csv"))})) {
     own[metric.name] = metric.value ? Json(*metric.value) : Json(nullptr);
+    if (!metric.warning.empty()) tell(stderr, metric.warning);
     if (!metric.error.empty()) failures.push_back(metric.error);
   }
   for (const auto& [name, value] : studies.metrics.items()) own[name] = value;

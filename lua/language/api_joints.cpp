@@ -170,11 +170,14 @@ std::vector<Function> joint_functions() {
   functions.push_back(
       {"joint", joint, "{ ... }", "",
        "Joins faces that face each other at rest by a law. The last rule that matches a pair of blocks applies.",
-       joined({{{"law", "law", "", "a law value: " + any_law(Laws{})},
-                {"between", "strings", "", "two groups, { \"wall\", \"slab\" }; \"\" is any group (default: any two groups)"}},
-               keys_of<JointRule>(),
-               {{"points", "points_per_face", "", "contact points: { along the longer side, along the shorter side }, or one square number",
-                 1, 64, false, "", "{ 3, 3 }"}}})});
+       joined(
+           {{{"law", "law", "", "a law value: " + any_law(Laws{})},
+             {"between", "strings", "", "two groups, { \"wall\", \"slab\" }; \"\" is any group (default: any two groups)"}},
+            keys_of<JointRule>(),
+            {{"points", "points_per_face", "",
+              "contact points: { along the longer side, along the shorter side }, or one square number; with rule = \"simpson\", 2 along a "
+              "side are those of gauss, .289 of the side from its middle: with pressure = \"points\" a block then hinges inside its edge",
+              1, 64, false, "", "{ 3, 3 }"}}})});
   return functions;
 }
 

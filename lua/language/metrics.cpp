@@ -206,7 +206,7 @@ std::vector<MetricValue> Script::evaluate_metrics(const RunResults& results) {
   const Cap uncapped(context.limits, false);
   context.run = &results;
   for (const Metric& metric : context.metrics) {
-    MetricValue value{metric.name, metric.unit, std::nullopt, ""};
+    MetricValue value{metric.name, metric.unit, std::nullopt, "", ""};
     if (metric.function == LUA_NOREF) {
       value.value = metric.value;
     } else {
@@ -221,6 +221,11 @@ std::vector<MetricValue> Script::evaluate_metrics(const RunResults& results) {
                                     described(lua_, -1));
       } catch (const Error& error) { value.error = error.what(); }
       lua_settop(lua_, 0);
+    }
+    if (value.value && !std::isfinite(*value.value)) {
+      value.warning = fmt::format("{}: metric \"{}\" is no finite number ({}) and has no value; return nil where there is none",
+                                  metric.place.text(), metric.name, std::isnan(*value.value) ? "0/0?" : "a division by 0?");
+      value.value.reset();
     }
     values.push_back(std::move(value));
   }

@@ -33,8 +33,9 @@ struct RunResults {
 
 struct MetricValue {
   std::string name, unit;
-  std::optional<double> value;  // none if the function returned nil or failed
+  std::optional<double> value;  // none if the function returned nil or no finite number, or failed
   std::string error;            // reason of the failure, with file and line; "" without one
+  std::string warning;          // of a number that is not finite; "" without one
 };
 
 class Script {

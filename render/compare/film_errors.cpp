@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/base/correlation.h"
 #include "engine/base/error.h"
 #include "engine/base/system/process.h"
 #include "engine/base/text.h"
@@ -93,7 +94,7 @@ Json list_of(const FilmErrors& e) {
 }  // namespace
 
 void draw_film_errors(const FilmErrors& e, const FilmComparison& wish) {
-  const std::string note = fmt::format("the run is {:+.4f} s later than the film, by {}; camera {}", e.lag, wish.align, e.camera);
+  const std::string note = fmt::format("the run is {} than the film, by {}; camera {}", lag_text(e.lag), wish.align, e.camera);
   if (can_start("gnuplot")) plot::draw(figure_of(e, note), wish.place + "/frames.svg");
   else tell(stderr, "warning: the figure needs gnuplot, which is not installed: it is left out; install the package gnuplot-nox");
 }
@@ -146,7 +147,7 @@ void write_film_errors(const FilmErrors& e, const FilmComparison& wish, bool qui
   if (quiet) return;
   tell(stdout, fmt::format("pictures    {} compared in {:.1f} s, {:.0f} a second; {} outside the run; measured at 1/{} of their size",
                            e.frames.size(), e.wall, double(e.frames.size()) / e.wall, e.outside, e.reduction));
-  tell(stdout, fmt::format("time        aligned by {}: the run is {:+.4f} s later than the film{} (correlation {:.3f})", wish.align, e.lag,
+  tell(stdout, fmt::format("time        aligned by {}: the run is {} than the film{} (correlation {:.3f})", wish.align, lag_text(e.lag),
                            e.lag != 0 && std::abs(e.lag) < known_share / e.fps ? ", less than a quarter of a picture" : "", e.correlation));
   tell(stdout, fmt::format("silhouette  mean IoU {:.3f}, least {:.3f} (background of the film: {})", iou, least, wish.background));
   tell(stdout, fmt::format("SSIM        mean {:.3f}", ssim));

@@ -268,6 +268,9 @@ int study(Call& call) {
   arguments.read("y", plan.y);
   arguments.read("split", plan.split);
   arguments.read("collect", plan.collect);
+  for (std::size_t i = 0; i < plan.collect.size(); ++i)
+    if (std::count(plan.collect.begin(), plan.collect.begin() + static_cast<std::ptrdiff_t>(i), plan.collect[i]) == 1)
+      arguments.mistake(fmt::format("collect names \"{}\" twice; name it once", plan.collect[i]));
   arguments.read("keep", plan.keep);
   plan.max_wall = quantity(arguments, call, "max_wall", {{"s", 1}, {"h", 3600}, {"m", 60}});
   if (!arguments.has("max_wall")) plan.max_wall = 3600;

@@ -41,3 +41,8 @@ TEST_CASE("the first motion is where the signal leaves its first value", "[corre
   CHECK(first_motion(ramp, 0.1) == Approx(1.2));
   CHECK(std::isnan(first_motion({{0, 1}, {2, 2}})));
 }
+
+TEST_CASE("a lag below zero is said as earlier", "[base]") {
+  CHECK(lag_text(0.3) == "0.3000 s later");
+  CHECK(lag_text(-0.3) == "0.3000 s earlier");
+}

@@ -69,6 +69,8 @@ TEST_CASE("corners of the band-pass rise and lie below half the sampling rate", 
   CHECK_THAT(mistake_in(text, with(10, 5)), Contains("scene.lua:7") && Contains("do not rise"));
   CHECK_THAT(mistake_in(text, with(5, 5)), Contains("do not rise"));
   CHECK_THAT(mistake_in(text, with(0, 50)), Contains("motion.txt") && Contains("half the sampling rate, 50 Hz") && Contains("high"));
+  const std::string rounded = "0 1\n.0099999999 2\n.0199999998 3\n.0299999997 1\n";
+  CHECK_THAT(mistake_in(rounded, with(0, 50)), Contains("half the sampling rate"));
   CHECK_THAT(mistake_in(text, with(60, 0)), Contains("half the sampling rate") && Contains("low"));
   CHECK_THAT(mistake_in("0 1\n.01 2\n.03 3\n.04 1\n", with(1, 5)),
              Contains("motion.txt:3") && Contains("t = 0.03 s") && Contains("even step"));

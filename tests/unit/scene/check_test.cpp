@@ -69,6 +69,29 @@ TEST_CASE("shapes that are no solid are named", "[scene]") {
   CHECK(mentions(check(scene), "block \"a\": "));
 }
 
+TEST_CASE("parts that share volume are named, parts that touch are not", "[scene]") {
+  Scene scene = sound();
+  Block& block = scene.blocks[0];
+  const auto cube = [](double x) { return box_polyhedron({x, 0, 0}, {x + 1, 1, 1}); };
+  block.parts = {cube(0), cube(1), cube(2 - .9e-3)};  // a little askew, as two blocks may be
+  CHECK(check(scene).empty());
+  block.parts = {cube(0), cube(1 - .01)};
+  REQUIRE(check(scene).size() == 1);
+  CHECK(mentions(check(scene), "s.lua:3: block \"a\": its parts 1 and 2 overlap by 10 mm, 0.01 of their smaller edge, and what they"));
+  CHECK(mentions(check(scene), "cut them so that they only touch"));
+  block.parts = {cube(0), cube(1), cube(2 - .01), cube(2)};
+  CHECK(mentions(check(scene), "its parts 3 and 4 overlap by 990 mm, 0.99 of their smaller edge (1 more overlap)"));
+  block.parts = {cube(0), cube(0)};
+  CHECK(mentions(check(scene), "its parts 1 and 2 overlap by 1e+03 mm, 1 of their smaller edge"));
+  Polyhedron open = cube(.5);
+  Faces::List faces(open.faces.begin(), open.faces.end());
+  faces.pop_back();
+  open.faces = std::move(faces);
+  block.parts = {cube(0), open};  // no solid: its defect is told alone
+  CHECK(check(scene).size() == 1);
+  CHECK(mentions(check(scene), "part 2: "));
+}
+
 TEST_CASE("numbers out of range are named with their range", "[scene]") {
   Scene scene = sound();
   scene.materials[0].density = -1;
@@ -89,6 +112,19 @@ TEST_CASE("loads and joints name what exists", "[scene]") {
   scene.joint_rules = {rule};
   CHECK(mentions(check(scene), "force: there is no block \"aa\"; did you mean \"a\"?"));
   CHECK(mentions(check(scene), "joint: no block is of group \"wal\"; did you mean \"wall\"?"));
+}
+
+TEST_CASE("the trapezoid rule wants both ends of each side", "[scene]") {
+  Scene scene = sound();
+  JointRule rule;
+  rule.place = {"s.lua", 9};
+  rule.law = DryFriction{1e9, 4e8, 0.6};
+  rule.rule = "trapezoid", rule.points_long = 1, rule.points_short = 3;
+  scene.joint_rules = {rule};
+  CHECK(mentions(check(scene),
+                 "s.lua:9: joint: points = { 1, 3 }, and rule = \"trapezoid\" has a point at each end of a side; give at least"));
+  scene.joint_rules[0].points_long = 2;
+  CHECK(check(scene).empty());
 }
 
 TEST_CASE("a mortar without stiffness is a mistake, a capped or snapping one a warning", "[scene]") {

@@ -194,6 +194,7 @@ TEST_CASE("mistakes of a study are refused with line and remedy, before any run"
       {"study{ scene = 'tiny.lua', vary = { 3 }" + collect, "its item 1 must be grid"},
       {"study{ scene = 'tiny.lua'" + collect, "it varies nothing"},
       {"study{ scene = 'tiny.lua', vary = grid{ h = { 1 } } }", "it collects nothing"},
+      {"study{ scene = 'tiny.lua', vary = grid{ h = { 1 } }, collect = { 'status', 'time_s', 'status' } }", "\"status\" twice"},
       {"study{ scene = 'tiny.lua', vary = grid{ h = { 1 } }, collect = 'capacity.walls.nowhere' }", "has no key"},
       {"study{ scene = 'tiny.lua', vary = grid{ h = { 1 } }, collect = 'metrics.doubel' }", "did you mean \"metrics.double\""},
       {"study{ scene = 'tiny.lua', vary = { grid{ h = { 1 } }, grid{ h = { 2 } } }" + collect, "varied twice"},

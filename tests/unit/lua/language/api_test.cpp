@@ -274,8 +274,36 @@ TEST_CASE("a mesh file becomes a block, an open or concave one is refused", "[lu
   CHECK(scene.blocks[1].parts[0].faces.size() == 6);
   CHECK(near(centroid(scene.blocks[1]), {1.05, .05, .05}, 1e-7));
   CHECK(scene.inputs.size() == 1);
-  CHECK(mentions(load("open.obj"), "is not a closed surface; close its holes"));
+  CHECK(mentions(load("open.obj"), "is not a closed surface at its edge from "));
   CHECK(mentions(load("dent.obj"), "is not convex"));
+  std::ofstream(folder / "turned.obj") << corners << sides << "f 8 7 6 5\n";
+  std::ofstream(folder / "twice.obj") << corners << sides << top << top;
+  std::ofstream(folder / "flat.obj") << corners << sides << top << "f 5 6 6\n";
+  std::ofstream(folder / "sheet.obj") << corners << "f 1 2 3\nf 1 3 2\n";
+  CHECK(mentions(load("turned.obj"), "has a face that is inside out at its edge from ("));
+  CHECK(mentions(load("twice.obj"), "3 faces meet at its edge from ("));
+  CHECK(mentions(load("flat.obj"), "is flat, without area: remove it first"));
+  CHECK(mentions(load("sheet.obj"), "sheet.obj: "));
+}
+
+TEST_CASE("a damaged PLY header is told with the file, before anything is read by it", "[lua]") {
+  namespace fs = std::filesystem;
+  const test::Folder own;
+  Script::Options allowed = quiet();
+  allowed.allow = {own.path.string()};
+  const std::string begin = "ply\nformat ascii 1.0\nelement vertex ", xyz = "property float x\nproperty float y\nproperty float z\n";
+  const auto load = [&](const std::string& text) {
+    const fs::path file = own.path / "a.ply";
+    std::ofstream(file) << text;
+    return mistakes_of(sound + "mesh{ file = '" + file.string() + "', material = 'brick' }", {}, allowed);
+  };
+  CHECK(mentions(load(begin + "4\nproperty float x\nprop"), "a.ply: its header has no end (end_header)"));
+  CHECK(
+      mentions(load(begin + "2000000000\n" + xyz + "end_header\n0 0 0\n"), "a.ply:3: the header promises 2000000000 elements \"vertex\""));
+  CHECK(load(begin + "4\n" + xyz +
+             "element face 4\nproperty list uchar int vertex_indices\nend_header\n"
+             "0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n")
+            .empty());
 }
 
 TEST_CASE("include runs a file of the folder and gives what it returns", "[lua]") {

@@ -191,7 +191,7 @@ TEST_CASE("a mesh that is no solid is refused", "[bad_input]") {
   CHECK(bench.run(pier + mesh("whole.obj"), {"--force"}) == 0);
   INFO(bench.said);
   fs::remove_all(bench.out());
-  refuses(bench, {mesh("open.obj"), {"scene.lua:7: mesh: ", "\"cube\"", "is not a closed surface; close its holes"}});
+  refuses(bench, {mesh("open.obj"), {"scene.lua:7: mesh: ", "\"cube\"", "is not a closed surface at its edge", "close its holes"}});
   refuses(bench, {mesh("dented.obj"), {"scene.lua:7: mesh: ", "\"cube\"", "is not convex", "split it"}});
   refuses(bench, {mesh("junk.obj"), {"scene.lua:7: mesh: ", "cannot read the mesh"}});
 }
@@ -306,6 +306,9 @@ TEST_CASE("options out of range are refused before anything is written", "[bad_i
     CHECK(contains(bench.said, message));
     CHECK_FALSE(fs::exists(bench.out()));
   }
+  CHECK(bench.erbs({"-v"}) == 2);
+  CHECK(contains(bench.said, "see erbs help"));
+  CHECK_FALSE(contains(bench.said, "help -v"));
   const std::string push = pier.substr(0, pier.find("analysis")) + "analysis{ kind = 'pushover', up_to = .02, limit = 'never' }\n";
   const std::pair<std::vector<std::string>, std::string> of_push[] = {
       {{"--from", "1"}, "--from is a time, and a push has none"},

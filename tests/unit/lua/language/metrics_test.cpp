@@ -69,6 +69,19 @@ TEST_CASE("a metric that fails says where, and the others are still there", "[lu
   CHECK(contains(values[3].error, "scene.lua:10:"));
 }
 
+TEST_CASE("a metric that is no finite number has no value and a warning, and is no failure", "[lua]") {
+  const auto values = evaluate(
+      "metric('a', 'm', function() return 0/0 end)\nmetric('b', 'm', function() return -1/0 end)\n"
+      "metric('c', '', function() return 1 end)");
+  REQUIRE(values.size() == 3);
+  CHECK_FALSE(values[0].value);
+  CHECK(values[0].warning == "scene.lua:6: metric \"a\" is no finite number (0/0?) and has no value; return nil where there is none");
+  CHECK_FALSE(values[1].value);
+  CHECK(contains(values[1].warning, "scene.lua:7: metric \"b\" is no finite number (a division by 0?)"));
+  CHECK(values[2].warning.empty());
+  for (const MetricValue& value : values) CHECK(value.error.empty());
+}
+
 TEST_CASE("a metric reads the run and leaves the scene alone", "[lua]") {
   const auto values = evaluate(
       "metric('a', '', function(run) box{ size = {1, 1, 1}, at = {9, 9, 9}, free = true } return 1 end)\n"
