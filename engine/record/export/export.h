@@ -27,7 +27,7 @@ ExportedRun read_exported_run(const std::string& dir, double from, double to, in
 
 // Share of the area of its joints that is broken [blocks].
 std::vector<float> damage_of(const ExportedRun& run, const MotionFrame& frame);
-// m/s, of the centroids, since the frame before; zero in the first [blocks*3].
+// m/s, of the centroids [blocks*3]: the slope of the parabola through this frame and those around it, which is that of free flight.
 std::vector<float> velocity_of(const ExportedRun& run, std::size_t frame);
 
 // Whole blocks, or joints with a face, as polygons: the same in all frames but for their points.

@@ -1,6 +1,8 @@
 // Blocks and joints as polygons with fields, for the formats of ParaView.
 #include "engine/record/export/export.h"
 
+#include <algorithm>
+
 namespace erbs {
 
 std::vector<float> damage_of(const ExportedRun& run, const MotionFrame& frame) {
@@ -15,12 +17,19 @@ std::vector<float> damage_of(const ExportedRun& run, const MotionFrame& frame) {
 }
 
 std::vector<float> velocity_of(const ExportedRun& run, std::size_t at) {
-  const MotionFrame& frame = run.frames[at];
-  const MotionFrame& before = run.frames[at > 0 ? at - 1 : 0];
-  const auto seconds = static_cast<float>(frame.t - before.t);
-  std::vector<float> velocity;
+  const std::size_t frames = run.frames.size();
+  std::vector<float> velocity(3 * run.scene.blocks.size());
+  if (frames < 2) return velocity;
+  const std::size_t middle = std::clamp<std::size_t>(at, 1, std::max<std::size_t>(frames - 2, 1));
+  const MotionFrame &before = run.frames[middle - 1], &frame = run.frames[middle], &after = run.frames[std::min(middle + 1, frames - 1)];
+  const double first = frame.t - before.t, second = after.t - frame.t, whole = first + second, here = run.frames[at].t - frame.t;
   for (std::size_t b = 0; b < run.scene.blocks.size(); ++b)
-    for (std::size_t i = 7 * b; i < 7 * b + 3; ++i) velocity.push_back(seconds > 0 ? (frame.poses[i] - before.poses[i]) / seconds : 0.0F);
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::size_t k = 7 * b + i;
+      const double rise = (double(frame.poses[k]) - double(before.poses[k])) / first;
+      const double next = second > 0 ? (double(after.poses[k]) - double(frame.poses[k])) / second : rise;
+      velocity[3 * b + i] = static_cast<float>((rise * second + next * first + 2 * here * (next - rise)) / whole);
+    }
   return velocity;
 }
 

@@ -134,8 +134,19 @@ TEST_CASE("a VTU holds whole blocks with their damage and velocity", "[record][e
   CHECK(value("points_m", 48, 24) == Approx(0.3 + 0.05));  // corner (-.1, -.05) turned by 90 degrees
   CHECK(value("damage", 12, 11) == 1);
   CHECK(value("displacement_m", 36, 33) == Approx(0.3));
-  CHECK(value("velocity_m_s", 36, 33) == Approx(0.5));
+  CHECK(value("velocity_m_s", 36, 33) == Approx(-0.5));  // of the parabola, at .8 s
   CHECK(value("velocity_m_s", 36, 0) == 0);
+}
+
+TEST_CASE("velocities of a free flight are exact at frames of any spacing", "[record][export]") {
+  ExportedRun run = bricks_that_move();
+  const double v = 3, a = -9.81;
+  for (MotionFrame& frame : run.frames) frame.poses[9] = static_cast<float>(v * (frame.t - 0.5) + a / 2 * std::pow(frame.t - 0.5, 2));
+  for (std::size_t f = 0; f < 3; ++f) CHECK(velocity_of(run, f)[5] == Approx(v + a * (run.frames[f].t - 0.5)).epsilon(1e-5));
+  run.frames.pop_back();
+  for (std::size_t f = 0; f < 2; ++f) CHECK(velocity_of(run, f)[5] == Approx(v + a * 0.05).epsilon(1e-5));
+  run.frames.pop_back();
+  CHECK(velocity_of(run, 0) == std::vector<float>(6));
 }
 
 TEST_CASE("an OBJ shows an instant, a table all poses", "[record][export]") {
@@ -173,7 +184,9 @@ TEST_CASE("HDF5 holds frames with units in the names, and XDMF names what is the
   CHECK(file.get_names("/blocks/name") == std::vector<std::string>{"base", "Ziegel, ä"});
   CHECK(file.get<float>("/blocks/position_m").size() == 18);
   CHECK(file.get<float>("/blocks/position_m")[9 + 0] == 0.2F);
-  CHECK(file.get<float>("/blocks/velocity_m_s")[15] == Approx(0.5));
+  const std::vector<float> velocity = file.get<float>("/blocks/velocity_m_s");
+  for (const auto& [at, expected] : {std::pair{3, 2.5}, {9, 1.5}, {15, -0.5}})  // of the parabola through the three frames
+    CHECK(velocity[std::size_t(at)] == Approx(expected));
   CHECK(file.get<float>("/blocks/damage")[5] == 1);
   CHECK(file.get<float>("/joints/area_m2") == std::vector<float>{0.02F});
   CHECK_FALSE(file.has("/joints/force_N"));  // this run has kept no forces
