@@ -64,7 +64,6 @@ class PushRun {
   std::optional<Relaxation> relaxation_;
   std::optional<RunWriter> writer_;
   std::optional<CsvWriter> curve_;
-  bool gravity_alone_ = false;
   bool too_far_ = false;  // control by displacement: this step is to be repeated in parts
   std::string fall_;      // how far the fall after the last step has come, for the progress line; empty before it
   NamedMechanism mechanism_;
@@ -95,10 +94,10 @@ void PushRun::begin() {
     add_noise(run_, options_.noise, options_.noise_seed);
     add_noise(run_, options_.twin_noise, 2);
     collapse_ = watch_collapse(run_.model, run_.state.pose);
-    gravity_alone_ = falling_share(run_) >= scene_.analysis.collapse_fraction;
+    so_far_.gravity_alone = falling_share(run_) >= scene_.analysis.collapse_fraction;
     so_far_.fell.assign(z(run_.model.nblock), 0);
     for (const int b : run_.fallers)
-      collapse_.start[z(b)] = height_above_rest(run_.model, intact.pose, z(b)), so_far_.fell[z(b)] = !gravity_alone_;
+      collapse_.start[z(b)] = height_above_rest(run_.model, intact.pose, z(b)), so_far_.fell[z(b)] = !so_far_.gravity_alone;
   }
   State loaded = std::exchange(run_.state, intact);
   relaxation_.emplace(push_, group_, run_, so_far_.fell, options_.threads);  // of the intact structure: a resumed push has the same
@@ -204,7 +203,7 @@ void PushRun::save(const WriterProgress& written) {
 bool PushRun::stand() {
   if (so_far_.states > 0) return true;  // resumed
   const Relaxed r = attempt([](double, double) { return 0.0; });
-  if (r.ending == Ending::collapse || r.ending == Ending::creep) gravity_alone_ = true;
+  if (r.ending == Ending::collapse || r.ending == Ending::creep) so_far_.gravity_alone = true;
   return r.found();
 }
 
@@ -328,15 +327,15 @@ Metrics PushRun::metrics() {
   m.residual_relative = residual_;
   m.momentum_residual = s.observed.momentum_residual;
   m.max_penetration_relative = s.observed.max_penetration_relative;
-  m.collapse.collapsed = gravity_alone_ || collapse_.collapsed || so_far_.path.above.has_value();
-  m.collapse.under_gravity = gravity_alone_;
-  if (gravity_alone_) m.collapse.under = weight_at_start(run_.model);
+  m.collapse.collapsed = so_far_.gravity_alone || collapse_.collapsed || so_far_.path.above.has_value();
+  m.collapse.under_gravity = so_far_.gravity_alone;
+  if (so_far_.gravity_alone) m.collapse.under = weight_at_start(run_.model);
   m.collapse.fallen_fraction = collapse_.fallen_fraction;
   m.collapse.direction = collapse_direction(collapse_, run_.model, s.pose);
   m.collapse.mechanism = mechanism_metrics(collapse_.mechanism, run_.model);
   m.equilibrium = equilibrium_metrics(run_);
   Capacity& c = m.capacity.emplace(capacity_of(push_, so_far_));
-  c.gravity_alone = gravity_alone_;
+  c.gravity_alone = so_far_.gravity_alone;
   c.limit = limit_;
   c.mechanism = mechanism_.name, c.course = mechanism_.text, c.walls = walls_;
   c.performance = performance_;
@@ -346,7 +345,7 @@ Metrics PushRun::metrics() {
 
 RunOutcome PushRun::go() {
   begin();
-  if (!gravity_alone_ && stand()) {
+  if (!so_far_.gravity_alone && stand()) {
     if (controlled()) control_on();
     else push_on();
   }
@@ -354,8 +353,8 @@ RunOutcome PushRun::go() {
   residual_ = run_.state.energy.residual_worst;
   if (status == "interrupted" || status == "stopped") {
     save(writer_->progress());
-  } else if (status == "completed" && (gravity_alone_ || so_far_.path.above || past_peak(push_, so_far_))) {
-    const bool drawn = gravity_alone_ || so_far_.path.above;
+  } else if (status == "completed" && (so_far_.gravity_alone || so_far_.path.above || past_peak(push_, so_far_))) {
+    const bool drawn = so_far_.gravity_alone || so_far_.path.above;
     const State before = run_.state;
     const PushState known = so_far_;
     const WriterProgress written = writer_->progress();

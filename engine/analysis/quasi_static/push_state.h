@@ -20,6 +20,7 @@ struct PushState {
   std::uint64_t curve_sum = 0;
   DisplacedShapes shapes;
   std::vector<std::uint8_t> happened;  // to each joint: what events.csv has told of it (push_events.h)  [njoint]
+  bool gravity_alone = false;          // there is no equilibrium without the push
   std::vector<std::uint8_t> fell;      // the block had fallen off before the push  [nblock]
 };
 
@@ -39,6 +40,7 @@ void each(P& p, F&& f) {
   f("push_curve_sum", p.curve_sum);
   each(p.shapes, f);
   f("push_happened", p.happened);
+  f("push_gravity_alone", p.gravity_alone);
   f("push_fell", p.fell);
 }
 
