@@ -221,3 +221,15 @@ TEST_CASE("the base shear of a push in any direction is what the push adds, with
     CHECK(at.base_shear_over_weight == Approx(0.1).epsilon(1e-3));
   }
 }
+
+TEST_CASE("a tilt to a side that is not level counts along the level part of it", "[push]") {
+  const test::Scratch dir("push_oblique");
+  const PushOutcome got = push(stone +
+                                   "box{ name = 'b', size = {.4, .4, 1}, at = {-.2, -.2, 0} } joint{ law = dry{ kn = 1e11, mu = .9 } } "
+                                   "analysis{ kind = 'tilt', direction = { 1, 0, -.5 }, step = 4*deg, bracket = .01, fall = 0 }",
+                               dir.path);
+  const Capacity& found = *got.metrics.capacity;
+  CHECK((found.peak.multiplier > .97 * .4 && found.peak.multiplier < 1.002 * .4));  // pressed hinges, as in V50
+  CHECK(found.peak.base_shear_over_weight == Approx(std::sin(std::atan(found.peak.multiplier))).epsilon(1e-3));
+  CHECK(found.limit->dry.lower == Approx(.4).epsilon(1e-3));
+}
