@@ -270,6 +270,7 @@ RunSoFar Run::so_far() const {
 // Status, exit code and last line follow from errors in the numbers.
 void Run::judge() {
   std::string& status = out_.metrics.status;
+  if (status == "completed" && diverged_at_end(so_far())) status = "diverged";
   out_.trouble = trouble_of(so_far(), status);
   if (status == "completed" && !out_.trouble.empty()) status = "inaccurate";
   writer_->log(fmt::format("status {}; {}", status, ledger_line(so_far())));

@@ -12,6 +12,34 @@ constexpr long wrong_steps = 512;        // allowed duration of a ledger that mi
 constexpr long negative_steps = 160000;  // allowed duration of negative kinetic energy, typical of modes at the stability limit
 // Kinetic energy over all other energy below which it is round-off: a block at rest trembles by the last bits of its place, about 1e-32.
 constexpr double round_off = 1e-20;
+constexpr double given_share = 0.1;  // of all energy in motion, that losses may give
+
+// J, that has come in from outside.
+double passed(const Energy& e) { return e.absolute_work + 0.5 * e.height_flux + std::fabs(e.start); }
+
+// Friction, cracks, crushing and dampers only take energy. Past the limit of the step they may give some, over which the ledger closes.
+bool losses_give(const Energy& e) {
+  double given = 0;  // J
+  for (const double loss : {e.friction, e.fracture, e.crushing, e.damping, e.contact_damping}) given += std::max(0.0, -loss);
+  return given > given_share * std::max(e.reference, passed(e));
+}
+
+// True if the ledger cannot be that of a motion.
+bool impossible(const RunSoFar& r, bool lost) {
+  const Energy& e = r.run.state.energy;
+  // Beyond its stability limit, explicit damping feeds the motion while the ledger closes. Velocities then change sign in every step, so
+  // that T = v- m v+ / 2 is negative.
+  const double noise = round_off * (passed(e) + std::fabs(e.elastic) + std::fabs(e.gravity));
+  return lost || e.kinetic < -noise;
+}
+
+// True if less than half of the energy is accounted for, or losses have given some.
+bool energy_lost(const RunSoFar& r) {
+  const Energy& e = r.run.state.energy;
+  return e.residual_relative > std::max(0.5, r.scene.analysis.energy_tolerance) || losses_give(e);
+}
+
+bool exploded(const Energy& e) { return std::fabs(e.kinetic) > 1e3 * passed(e); }
 
 // Rounded down to one digit.
 std::string step_of(double wanted) {
@@ -41,18 +69,18 @@ bool diverges(const RunSoFar& r, long& right) {
   const State& s = r.run.state;
   const Energy& e = s.energy;
   if (!std::isfinite(e.residual)) return true;
-  const double passed = e.absolute_work + 0.5 * e.height_flux + std::fabs(e.start);
   // The ledger of the sequential scheme does not close. Even so, kinetic energy cannot exceed the energy supplied plus the potential energy
   // of all heights, if there are any.
-  if (growth_allowed(r.scene)) return r.height_energy > 0 && e.kinetic > 2 * (passed + r.height_energy);
-  // Beyond its stability limit, explicit damping feeds the motion while the ledger closes. Velocities then change sign in every step, so
-  // that T = v- m v+ / 2 is negative.
-  const double noise = round_off * (passed + std::fabs(e.elastic) + std::fabs(e.gravity));
-  const bool lost = e.residual_relative > std::max(0.5, r.scene.analysis.energy_tolerance), wrong = lost || e.kinetic < -noise;
+  if (growth_allowed(r.scene)) return r.height_energy > 0 && e.kinetic > 2 * (passed(e) + r.height_energy);
+  const bool lost = energy_lost(r), wrong = impossible(r, lost);
   if (!wrong) right = s.time.step;
   // If only a few light blocks exceed their limit, their joints crack and stop the growth. The duration of the error then ends the run.
-  return wrong &&
-         ((std::fabs(e.kinetic) > 1e3 * passed && s.time.step > 64) || s.time.step - right > (lost ? wrong_steps : negative_steps));
+  return wrong && ((exploded(e) && s.time.step > 64) || s.time.step - right > (lost ? wrong_steps : negative_steps));
+}
+
+bool diverged_at_end(const RunSoFar& r) {
+  const Energy& e = r.run.state.energy;
+  return !growth_allowed(r.scene) && (losses_give(e) || (exploded(e) && impossible(r, energy_lost(r))));
 }
 
 std::string trouble_of(const RunSoFar& r, const std::string& status) {

@@ -28,8 +28,11 @@ double energy_tolerance(const RunSoFar& so_far);
 bool growth_allowed(const Scene& scene);
 
 // True if the rest of the run would be useless. `right` is the last step with a valid ledger: less than half of the energy passed is
-// missing, and kinetic energy is not negative. The call updates it.
+// missing, losses have given none, and kinetic energy is not negative. The call updates it.
 bool diverges(const RunSoFar& so_far, long& right);
+
+// The same of a run that has reached its end, however few its steps.
+bool diverged_at_end(const RunSoFar& so_far);
 
 // Error in the numbers of a run that ended with `status`, and the setting that cures it; empty if there is none.
 std::string trouble_of(const RunSoFar& so_far, const std::string& status);

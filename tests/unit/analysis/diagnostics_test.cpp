@@ -68,3 +68,24 @@ TEST_CASE("round-off of a block at rest is no divergence, and negative kinetic e
     CHECK(diverges(so_far, right) == expected);
   }
 }
+
+TEST_CASE("a run whose losses give energy has diverged, though its ledger closes", "[analysis][trust]") {
+  const Scene scene = test::small_wall("analysis{duration=1}");
+  Prepared run = prepare(scene, false);
+  const Collapse collapse;
+  const RunDiagnostics diagnostics;
+  const RunSoFar so_far{.scene = scene, .run = run, .collapse = collapse, .diagnostics = diagnostics, .dt_at_start = 1e-5};
+  Energy& e = run.state.energy;
+  e.kinetic = e.reference = 1e6, e.height_flux = 10;  // J
+  for (const auto& [step, friction, expected] :
+       {std::tuple{100L, 5e5, false}, {100L, -5e4, false}, {100L, -1e6, true}, {50L, -1e6, false}}) {
+    long right = 0;
+    e.friction = friction, run.state.time.step = step;
+    CHECK(diverges(so_far, right) == expected);
+  }
+  CHECK(diverged_at_end(so_far));  // after 50 steps
+  e.kinetic = e.reference = 100, e.friction = -50;
+  CHECK(diverged_at_end(so_far));
+  e.friction = 0;
+  CHECK_FALSE(diverged_at_end(so_far));
+}
