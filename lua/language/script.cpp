@@ -73,7 +73,10 @@ bool is_bare_word(const std::string& text) {
 // Leaves the value of an expression on the stack.
 void evaluate(lua_State* lua, Context& context, const std::string& expression, const std::string& name) {
   load_chunk(lua, context, "return " + expression, name);
-  call_script(lua, context, 0, 1);
+  call_script(lua, context, 0, 2);
+  const bool two = !lua_isnil(lua, -1);
+  lua_pop(lua, two ? 2 : 1);
+  if (two) throw Error(name + ": a comma parts two values; write one, with a decimal point: 0.4, not 0,4");
 }
 
 void evaluate_overrides(lua_State* lua, Context& context) {
