@@ -104,6 +104,17 @@ int guarded(lua_State* lua) {
   return results >= 0 ? results : lua_error(lua);
 }
 
+// Values beyond those that a function takes: gravity(0, 0, -9.81) would be gravity(0), and no word of it.
+void refuse_more(const Call& call) {
+  const Function& function = call.function;
+  if (function.parameters == "...") return;
+  const long most = takes_table(function) ? 1 : std::ranges::count(function.parameters, ',') + 1;
+  if (lua_gettop(call.lua) <= most || lua_isnil(call.lua, static_cast<int>(most) + 1)) return;
+  const std::string& name = function.name;
+  call.mistake(fmt::format("{} values, where it takes {}; write {}", lua_gettop(call.lua), most,
+                           takes_table(function) ? name + function.parameters : fmt::format("{}({})", name, function.parameters)));
+}
+
 int call_api(lua_State* lua, Context& context) {
   const auto* function = static_cast<const Function*>(lua_touserdata(lua, lua_upvalueindex(2)));
   Call call{context, lua, *function, current_place(lua)};
@@ -112,6 +123,7 @@ int call_api(lua_State* lua, Context& context) {
                 call.place);
   const Doing doing(context.limits, call.place.text() + ": " + function->name, true);
   context.took(0);
+  refuse_more(call);
   return function->call(call);
 }
 

@@ -103,6 +103,7 @@ void evaluate_overrides(lua_State* lua, Context& context) {
 // Samples the waves that are Lua functions; the duration is known now. What a block is made to follow must be smooth.
 void sample_waves(lua_State* lua, Context& context) {
   for (const Sampling& one : context.samplings) {
+    if (!(one.sample > 0)) continue;  // a mistake that is told already
     Load& load = context.scene.loads[one.load];
     Samples s = sampled(lua, context, one.function, context.scene.analysis.duration, one.sample, one.place);
     const bool path = load.kind == Load::Kind::motion || load.kind == Load::Kind::turning;
