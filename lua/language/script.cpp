@@ -108,6 +108,7 @@ void sample_waves(lua_State* lua, Context& context) {
     Samples s = sampled(lua, context, one.function, context.scene.analysis.duration, one.sample, one.place);
     const bool path = load.kind == Load::Kind::motion || load.kind == Load::Kind::turning;
     if (path) {
+      carry_on(s);
       Curve curve = make_curve(std::move(s.times), std::move(s.values), false);
       curve.hold = true;
       load.wave = std::move(curve);

@@ -130,6 +130,9 @@ struct Samples {
 };
 Samples sampled(lua_State* lua, Context& context, int function, double duration, double sample, const Place& place);
 
+// Continues the samples beyond their end along a parabola, so that what moves there does not stop within the last step of a run.
+void carry_on(Samples& samples);
+
 // Description of the value at `index`, for messages: 'the string "1800"'.
 std::string described(lua_State* lua, int index);
 

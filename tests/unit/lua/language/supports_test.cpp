@@ -62,6 +62,16 @@ TEST_CASE("a support moves in the frame it was built in", "[lua][supports]") {
   CHECK((moved(scene, "arch.left", 9) - Vec3(0, -0.02, 0)).norm() < 1e-12);
 }
 
+TEST_CASE("what a function moves does not stop within the last step of the run", "[lua][supports]") {
+  const Scene scene = scene_of(
+      "analysis{ duration = 0.5 }\n"
+      "box{ name = 'table', size = {1,1,1}, at = {5,0,0}, material = 'brick', free = true }\n"
+      "motion{ block = 'table', wave = function(t) return t * t end }\n"
+      "force{ block = 'b', wave = function(t) return t end }\n");
+  CHECK(value(scene.loads.at(0).wave, 0.5005) == Approx(0.5005 * 0.5005).epsilon(1e-9));
+  CHECK(value(scene.loads.at(1).wave, 0.5005) == Approx(0.5));  // a force keeps its last value
+}
+
 TEST_CASE("mistakes of moving supports have a place, a cause and a remedy", "[lua][supports]") {
   const auto wrong = [&](const std::string& text) { return mistakes_in(ring + text); };
   CHECK(mentions(wrong("settle{ supports = 'arch.lefd', by = 1*mm }"),
