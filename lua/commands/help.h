@@ -17,7 +17,7 @@ std::string editor_file();  // the text of erbs.meta.lua
 // The table `run` that a metric function receives.
 inline constexpr std::string_view run_help = R"(the table run:
   the keys of metrics.json (run.time_s, run.energy, run.collapse ...), and all of them in run.metrics
-  run.metrics.metrics      results of the scene's studies, by the names of their metrics
+  run.metrics.metrics      metrics above this one, and results of the scene's studies, by their names
   run.time                 times of the rows of histories.csv (s)
   run.columns              names of its columns
   run.history(column)      its values, one per row

@@ -204,7 +204,8 @@ std::vector<MetricValue> Script::evaluate_metrics(const RunResults& results) {
   std::vector<MetricValue> values;
   const Stretch stretch(lua_, context);
   const Cap uncapped(context.limits, false);
-  context.run = &results;
+  RunResults seen = results;  // with the metrics so far, which later ones may use
+  context.run = &seen;
   for (const Metric& metric : context.metrics) {
     MetricValue value{metric.name, metric.unit, std::nullopt, "", ""};
     if (metric.function == LUA_NOREF) {
@@ -212,7 +213,7 @@ std::vector<MetricValue> Script::evaluate_metrics(const RunResults& results) {
     } else {
       try {
         lua_rawgeti(lua_, LUA_REGISTRYINDEX, metric.function);
-        push_run(lua_, results);
+        push_run(lua_, seen);
         call_script(lua_, context, 1, 1);
         if (lua_type(lua_, -1) == LUA_TNUMBER) value.value = lua_tonumber(lua_, -1);
         else if (lua_type(lua_, -1) == LUA_TBOOLEAN) value.value = lua_toboolean(lua_, -1);
@@ -227,6 +228,8 @@ std::vector<MetricValue> Script::evaluate_metrics(const RunResults& results) {
                                   metric.place.text(), metric.name, std::isnan(*value.value) ? "0/0?" : "a division by 0?");
       value.value.reset();
     }
+    if (!context.study.empty() && metric.name != "study") value.error.clear(), value.warning.clear();  // it may need the studies themselves
+    if (value.value && seen.metrics.is_object()) seen.metrics["metrics"][metric.name] = *value.value;
     values.push_back(std::move(value));
   }
   context.run = nullptr;

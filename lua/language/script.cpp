@@ -335,7 +335,9 @@ void Script::finish(bool whole) {
   if (!context.study.empty()) {
     context.scene.expectations.clear();
     context.scene.pictures.clear();
-    std::erase_if(context.metrics, [](const Metric& metric) { return metric.name != "study"; });
+    const auto asked = std::ranges::find(context.metrics, "study", &Metric::name);  // it may use those above it
+    const bool by_function = asked != context.metrics.end();
+    context.metrics.erase(by_function ? asked + 1 : context.metrics.begin(), context.metrics.end());
   }
   if (context.mistakes.empty()) return;
   std::stable_sort(context.mistakes.begin(), context.mistakes.end(), [&](const std::string& a, const std::string& b) {

@@ -52,6 +52,23 @@ TEST_CASE("a block slides where the slope is mu, found by bisection of the scene
   CHECK(table.column("answer")[1] == 1);
 }
 
+TEST_CASE("functions of studies and metrics use the metrics above them", "[lua][study]") {
+  StudyRun bench;
+  REQUIRE(bench.run(R"(
+    local seed = param("seed", 1)
+    material { name = "stone", density = 2000 }
+    box { name = "block", size = { 1, 1, 1 }, free = true }
+    analysis { duration = 0.01, dt = 1e-3 }
+    metric("falls", "", function(run) return run.time_s + seed end)
+    metric("twice", "", function(run) return 2 * run.metrics.metrics.falls end)
+    metric("spread", "", function(run) return run.metrics.metrics.ensemble_most - run.metrics.metrics.ensemble_least end)
+    ensemble { n = 3, seed = 2, value = function(run) return run.metrics.metrics.falls end })",
+                    {"-q", "--no-figures"}) == 0);
+  CHECK(bench.metric("twice") == 2 * bench.metric("falls"));
+  CHECK(bench.metric("ensemble_failed") == 0);
+  CHECK(bench.metric("spread") > 0);
+}
+
 TEST_CASE("a finished run of a study is not run again, unless the scene has changed", "[lua][study]") {
   StudyRun bench;
   REQUIRE(bench.run(slope) == 0);
