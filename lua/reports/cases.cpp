@@ -45,9 +45,11 @@ std::vector<std::string> scenes_of(const std::string& word) {
   std::vector<std::string> found;
   if (fs::is_regular_file(word)) return {word};
   if (!fs::is_directory(word)) throw Error(fmt::format("there is no scene and no folder {}; check the path", word));
-  for (const auto& entry : fs::recursive_directory_iterator(word))
-    if (entry.is_regular_file() && entry.path().extension() == ".lua" && carries_expectations(entry.path()))
-      found.push_back(entry.path().string());
+  for (fs::recursive_directory_iterator at(word); at != fs::recursive_directory_iterator(); ++at) {
+    const fs::path& path = at->path();
+    if (at->is_directory() && is_run_folder(path.string())) at.disable_recursion_pending();  // its scene.lua is a copy
+    else if (at->is_regular_file() && path.extension() == ".lua" && carries_expectations(path)) found.push_back(path.string());
+  }
   std::sort(found.begin(), found.end());
   if (found.empty()) throw Error(fmt::format("{} holds no scene with expectations; add expect(...) to one", word));
   return found;
