@@ -33,7 +33,7 @@ void split_unit(const std::string& text, Param& param) {
 int word_param(Call& call) {
   WordParam item{call.text(1, "name"), call.text(2, "default"), call.place};
   if (!is_name(item.name)) call.mistake(fmt::format("name = \"{}\" becomes a word of -D: letters, digits, _, + and - only", item.name));
-  if (!lua_isnoneornil(call.lua, 3)) call.text(3, "text");
+  const std::string text = lua_isnoneornil(call.lua, 3) ? "" : "  -- " + call.text(3, "text");
   for (Override& given : call.context.overrides) {
     if (given.name != item.name) continue;
     given.used = true;
@@ -41,7 +41,7 @@ int word_param(Call& call) {
     else if (!given.trouble.empty()) item.value = given.expression;  // a word without quotes
     else if (given.valid) call.mistake(fmt::format("\"{0}\" takes a word, not a number; write -D '{0}=\"{1}\"'", item.name, item.value));
   }
-  if (call.context.study.empty()) call.context.output.push_back(fmt::format("param {} = \"{}\"", item.name, item.value));
+  if (call.context.study.empty()) call.context.scene.notes.push_back(fmt::format("param {} = \"{}\"{}", item.name, item.value, text));
   lua_pushlstring(call.lua, item.value.data(), item.value.size());
   call.context.words.push_back(std::move(item));
   return 1;

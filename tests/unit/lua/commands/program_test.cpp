@@ -244,3 +244,14 @@ TEST_CASE("what masonry_stiffness did stands in check, in the log and in the man
   REQUIRE(notes.size() == 1);
   CHECK(contains(notes[0].get<std::string>(), "scene.lua:4: " + sentence));
 }
+
+TEST_CASE("a param that is a word stands in check, in the log and in the manifest", "[program]") {
+  Bench bench;
+  const std::string way = "param way = \"drop\"  -- what the brick does",
+                    scene = falling_brick + "param('way', 'rest', 'what the brick does')\n";
+  CHECK(bench.run(scene, {"-D", "way=drop", "-q", "--no-figures"}) == 0);
+  CHECK(contains(text_of(bench.out() + "/log.txt"), way));
+  CHECK(read_json(bench.out() + "/manifest.json")["notes"] == Json::array({way}));
+  CHECK(bench.erbs({"check", bench.scene(scene), "-D", "way=drop"}) == 0);
+  CHECK(contains(bench.said, way));
+}
