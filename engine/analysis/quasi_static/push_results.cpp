@@ -1,5 +1,8 @@
 #include "engine/analysis/quasi_static/push_results.h"
 
+#include <cmath>
+
+#include "engine/analysis/diagnostics.h"
 #include "engine/base/error.h"
 #include "engine/record/performance/performance_folder.h"
 
@@ -21,6 +24,15 @@ Capacity capacity_of(const PushSettings& push, const PushState& so_far) {
   c.relaxation_steps = so_far.steps;
   c.worst_unbalanced = so_far.worst_unbalanced;
   return c;
+}
+
+Metrics::Diagnostics push_diagnostics(double residual, const Model& model, const State& state) {
+  RunDiagnostics seen;
+  seen.residual = residual;
+  seen.residual_joint = state.energy.largest_jump_joint;
+  Metrics::Diagnostics d = diagnostics_of(seen, model, state);
+  d.energy_residual_time = d.dt_margin = d.warned_share = d.past_tolerance_share = d.past_step_share = d.sinking_share = NAN;
+  return d;
 }
 
 std::string progress_line(const PushSettings& push, const PushState& so_far, double multiplier, const std::string& fall) {

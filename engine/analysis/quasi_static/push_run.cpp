@@ -334,6 +334,7 @@ Metrics PushRun::metrics() {
   m.collapse.direction = collapse_direction(collapse_, run_.model, s.pose);
   m.collapse.mechanism = mechanism_metrics(collapse_.mechanism, run_.model);
   m.equilibrium = equilibrium_metrics(run_);
+  m.diagnostics = push_diagnostics(residual_, run_.model, s);
   Capacity& c = m.capacity.emplace(capacity_of(push_, so_far_));
   c.gravity_alone = so_far_.gravity_alone;
   c.limit = limit_;

@@ -320,6 +320,9 @@ TEST_CASE("a push keeps its ledger", "[push]") {
         push(wall_text + "analysis{ kind = 'pushover', direction = 'y', step = .05, bracket = .05, relaxation = '" + how + "' }", dir.path);
     CAPTURE(how);
     CHECK(got.metrics.residual_relative < 5e-3);
+    CHECK(got.metrics.diagnostics.energy_residual == got.metrics.residual_relative);
+    CHECK(got.metrics.diagnostics.penetration == got.metrics.max_penetration_relative);
+    CHECK(std::isnan(got.metrics.diagnostics.warned_share));  // of the steps of a time history
     CHECK(got.metrics.capacity->worst_unbalanced <= 1e-5);
   }
 }
