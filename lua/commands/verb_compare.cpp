@@ -154,6 +154,14 @@ CsvTable with_energies(const std::string& folder) {
 
 std::string status_of(const std::string& folder) { return metrics_of(folder).value("status", "unfinished"); }
 
+// The rows of a push number its states of equilibrium; those of a time history are seconds.
+void check_kinds(const std::string& run, const std::string& reference) {
+  const bool push = metrics_of(run).contains("capacity");
+  if (push == metrics_of(reference).contains("capacity")) return;
+  throw Error(fmt::format("{} is a push through states of equilibrium, {} a time history; compare two of one kind",
+                          shown(push ? run : reference, 400), shown(push ? reference : run, 400)));
+}
+
 std::vector<ColumnPair> pairs_of(const CompareCommand& command, bool of_run) {
   const std::string &run = command.words[0], &reference = command.words[1];
   const CsvTable own = read_histories(run), other = of_run ? read_histories(reference) : read_measured_csv(reference);
@@ -168,6 +176,7 @@ Compared compare_histories(const CompareCommand& command) {
   const TimeSpan chosen = command.time.empty() ? TimeSpan{} : time_span_of(command.time);
   const bool of_run = is_run_folder(reference);
   Compared c;
+  if (of_run) check_kinds(run, reference);
   c.pairs = pairs_of(command, of_run);
   if (of_run) {
     check_blocks(run, reference);

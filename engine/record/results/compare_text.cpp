@@ -10,14 +10,17 @@ namespace {
 
 std::string percent(double share) { return std::isfinite(share) ? fmt::format("{:+.2f} %", 100 * share) : "-"; }
 
-// "0.780 s", or that it stands.
-std::string fall_of(bool collapsed, double time) { return collapsed ? fmt::format("{:.3f} s", time) : "stands"; }
+// "0.780 s", or that it stands; "falls" under its weight or in a push, which have no time.
+std::string fall_of(bool collapsed, double time) {
+  return !collapsed ? "stands" : std::isfinite(time) ? fmt::format("{:.3f} s", time) : "falls";
+}
 
 std::string list_of(const std::vector<std::string>& names) { return names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", ")); }
 
 std::string collapse_text(const CollapseErrors& c) {
   std::string text = fmt::format("collapse    run {}, reference {}", fall_of(c.run, c.time_run), fall_of(c.reference, c.time_reference));
-  if (c.run && c.reference) text += fmt::format("; error {:+.4f} s after the alignment, direction {:.1f} deg apart", c.time, c.direction);
+  if (c.run && c.reference && std::isfinite(c.time)) text += fmt::format("; error {:+.4f} s after the alignment", c.time);
+  if (c.run && c.reference && std::isfinite(c.direction)) text += fmt::format(", direction {:.1f} deg apart", c.direction);
   return text + fmt::format("\nsequence    run {}; reference {}; {}\n", list_of(c.order_run), list_of(c.order_reference),
                             c.same_sequence ? "the same" : "another");
 }

@@ -95,6 +95,10 @@ TEST_CASE("collapse is compared by time, direction and sequence", "[compare]") {
   CHECK(std::isinf(compare_collapse(a, stands, 0).time));
   CHECK(compare_collapse(stands, stands, 0).time == 0);
   CHECK_FALSE(compare_collapse(a, Json::object(), 0).known);
+  const Json under{{"collapse", {{"collapsed", true}, {"time_s", nullptr}, {"direction", nullptr}}}};  // its weight
+  RunComparison both;
+  both.collapse = compare_collapse(under, under, 0);
+  CHECK_THAT(table_of(both), Catch::Contains("run falls, reference falls\n"));
 }
 
 TEST_CASE("params that differ are listed with both values, and those that one run has alone", "[compare]") {

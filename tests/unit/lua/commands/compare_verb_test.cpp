@@ -101,3 +101,16 @@ TEST_CASE("erbs compare of runs without a response in their histories compares e
   CHECK_FALSE(same["columns"].contains("residual_J"));
   CHECK(bench.erbs({"compare", low, high, "-o", place, "--force", "--expect", "peak<1%"}) == exit_expectation);
 }
+
+TEST_CASE("erbs compare does not take the states of a push for seconds", "[compare][program]") {
+  Bench bench;
+  const std::string history = shaken(bench, "a", "0.1*g"), push = (bench.folder / "push").string();
+  bench.write("push.lua", four_bricks() +
+                              "joint{ law = dry{ kn = 1*GPa, mu = 0.6 } }\n"
+                              "analysis{ kind = 'pushover', up_to = .02, limit = 'never' }\n");
+  REQUIRE(bench.erbs({"run", (bench.folder / "push.lua").string(), "-o", push, "-q", "--no-figures"}) == exit_ok);
+  for (const auto& [run, reference] : {std::pair{history, push}, {push, history}}) {
+    CHECK(bench.erbs({"compare", run, reference}) == exit_usage);
+    CHECK(contains(bench.said, push + " is a push through states of equilibrium, " + history + " a time history"));
+  }
+}
