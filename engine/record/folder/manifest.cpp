@@ -51,6 +51,10 @@ Json json_of_rule(const JointRule& rule) {
           inner.update(json_of_fields(law));
           if constexpr (requires { law.scatter; })
             if (law.scatter.cv > 0) inner["scatter"] = json_of_fields(law.scatter);
+          // What parameters that the script leaves out come to.
+          const PointLaw point = law.compile();
+          const auto one = [](double value, const char* unit) { return Json{{"value", value}, {"unit", unit}}; };
+          inner["in_force"] = {{"kn", one(point.kn, "Pa/m")}, {"ks", one(point.ks, "Pa/m")}, {"mu_residual", one(point.mu_debonded(), "")}};
           return inner;
         },
         rule.law);

@@ -18,7 +18,7 @@ Scene full_scene() {
   scene.inputs = {{"records/elcentro.csv", "00ff"}};
   scene.cameras.push_back({"street", Vec3(1, 2, 3), Vec3(0, 0, 1), Vec3(0, 0, 1), 0.6, {}});
   Mortar mortar;
-  mortar.ft = 2e5;
+  mortar.ft = 2e5, mortar.E = 1e9, mortar.thickness = 0.01;
   scene.joint_rules[0].law = mortar;
   Load shake;
   shake.wave = Sine{2, 3, 0, 0, unbounded};
@@ -56,6 +56,8 @@ TEST_CASE("a run folder holds the script and what it ran with", "[record][run_fo
   const Json json = read_json(dir + "/manifest.json");
   CHECK(*find_key(json, "laws.0.law.ft.value") == 2e5);
   CHECK(*find_key(json, "laws.0.law.ft.unit") == "Pa");
+  CHECK(*find_key(json, "laws.0.law.in_force.kn.value") == 1e11);  // E / thickness
+  CHECK(*find_key(json, "laws.0.law.in_force.ks.unit") == "Pa/m");
   CHECK(*find_key(json, "loads.0.wave.frequency.value") == 3.0);
   CHECK(*find_key(json, "settings.damping.mass.unit") == "1/s");
 }
