@@ -56,6 +56,14 @@ void check_rules(const Scene& scene, const Interfaces& found, std::vector<std::s
   }
 }
 
+// "no gap", "a gap of 3 mm", "gaps of 2 to 3 mm".
+std::string gaps_of(std::size_t count, double least, double most) {
+  constexpr double none = 1e-9;  // m; below it a gap is round-off of coordinates
+  if (most < none) return "no gap";
+  const std::string low = fmt::format("{:.4g}", least < none ? 0 : 1e3 * least), high = fmt::format("{:.4g}", 1e3 * most);
+  return low == high ? fmt::format("{} of {} mm", count > 1 ? "gaps" : "a gap", low) : fmt::format("gaps of {} to {} mm", low, high);
+}
+
 // Joints of one rule whose gaps differ from its thickness.
 struct OffWidth {
   const Interface* first = nullptr;
@@ -83,11 +91,10 @@ void check_gaps(const Scene& scene, const Interfaces& found, std::vector<std::st
     const JointRule& rule = scene.joint_rules[r];
     const auto tell = [&](const OffWidth& n, const std::string& why) {
       if (n.count == 0) return;
-      warnings.push_back(fmt::format(
-          "{}: {} joint{} of this rule bridge{} gaps of {:.4g} to {:.4g} mm, {} (first between '{}' and '{}'); the law is that of the "
-          "rule all the same",
-          rule.place.text(), n.count, n.count > 1 ? "s" : "", n.count > 1 ? "" : "s", 1e3 * n.least, 1e3 * n.most, why,
-          scene.blocks[z(n.first->a)].name, scene.blocks[z(n.first->b)].name));
+      warnings.push_back(
+          fmt::format("{}: {} joint{} of this rule bridge{} {}, {} (first between '{}' and '{}'); the law is that of the rule all the same",
+                      rule.place.text(), n.count, n.count > 1 ? "s" : "", n.count > 1 ? "" : "s", gaps_of(z(n.count), n.least, n.most), why,
+                      scene.blocks[z(n.first->a)].name, scene.blocks[z(n.first->b)].name));
     };
     tell(narrow[r], fmt::format("not the {:g} mm it says", 1e3 * rule.thickness));
     tell(wide[r], fmt::format("which its masonry made wider than the {:g} mm it says", 1e3 * rule.thickness));
@@ -103,9 +110,9 @@ void check_unjoined(const Scene& scene, const Interfaces& found, std::vector<std
     const JointRule& rule = scene.joint_rules[z(r)];
     const Unjoined& first = *pairs.front();
     warnings.push_back(
-        fmt::format("{}: {} pair{} of blocks face each other across gaps of {:.4g} to {:.4g} mm and are not joined (first '{}' and "
+        fmt::format("{}: {} pair{} of blocks face each other across {} and are not joined (first '{}' and "
                     "'{}'): this rule joins up to {:g} mm; widen its thickness or tolerance if they should be",
-                    rule.place.text(), pairs.size(), pairs.size() > 1 ? "s" : "", 1e3 * (*least)->gap, 1e3 * (*most)->gap,
+                    rule.place.text(), pairs.size(), pairs.size() > 1 ? "s" : "", gaps_of(pairs.size(), (*least)->gap, (*most)->gap),
                     scene.blocks[z(first.a)].name, scene.blocks[z(first.b)].name, 1e3 * (rule.thickness + rule.tolerance)));
   }
 }
