@@ -46,7 +46,7 @@ void check_options(const CLI::App& app, int argc, char** argv) {
     const CLI::Option* option = verb->get_option_no_throw(name);
     if (option == nullptr) {
       std::vector<std::string> names;
-      for (const CLI::Option* known : verb->get_options())
+      for (const CLI::Option* known : verb->get_options([](const CLI::Option* one) { return !one->get_group().empty(); }))  // not hidden
         for (const std::string& one : known->get_lnames()) names.push_back("--" + one);
       throw Error(fmt::format("erbs {} has no option {}{}; see erbs help {}", verb->get_name(), shown(name, 60), did_you_mean(name, names),
                               verb->get_name()));

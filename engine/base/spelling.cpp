@@ -47,12 +47,13 @@ std::string nearest(std::string_view word, const std::vector<std::string>& known
 std::string did_you_mean(std::string_view word, const std::vector<std::string>& known) {
   const std::string near = nearest(word, known);
   if (!near.empty()) return fmt::format("; did you mean \"{}\"?", near);
-  if (known.empty()) return "; none is known";
+  std::vector<std::string> named = known;
+  std::erase(named, "");  // such as the group of blocks that name none
+  if (named.empty()) return "; none is known";
   constexpr size_t most = 40;
-  const size_t shown = std::min(known.size(), most);
-  const std::vector<std::string> first(known.begin(), known.begin() + static_cast<std::ptrdiff_t>(shown));
-  return fmt::format("; known: {}{}", fmt::join(first, ", "),
-                     shown < known.size() ? fmt::format(" and {} more", known.size() - shown) : "");
+  const size_t more = named.size() - std::min(named.size(), most);
+  named.resize(named.size() - more);
+  return fmt::format("; known: {}{}", fmt::join(named, ", "), more > 0 ? fmt::format(" and {} more", more) : "");
 }
 
 }  // namespace erbs
