@@ -1,7 +1,9 @@
 #include "engine/contact/law/impact_bound.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <numeric>
 #include <span>
 
 #include "engine/contact/law/frame.h"
@@ -264,11 +266,14 @@ FaceBlow foresee_landing(const CornersOverPlane& one, const PairFrame& s, const 
   for (std::size_t i = 0; i < count; ++i) {
     if (!(rate[i] < 0 && height[i] > 0)) continue;
     const double speed = -rate[i], time = height[i] / speed;
+    const bool is_soon = speed > settings.reference_speed && time <= look_ahead * dt;
+    // of stones with many corners most are too far to count, even with all of the face
+    if (!is_soon && event_rate(0.5 * face, speed, height[i], s, settings) <= blow.event_rate) continue;
     double low[3] = {1e300, 1e300, 1e300};  // m, of the corners above the plane by then
     for (std::size_t j = 0; j < count; ++j) lower(j == i ? 0 : std::max(0.0, height[j] + rate[j] * time), low);
     const double share = pressed_share(low, look_ahead * speed * dt, 0);
     blow.event_rate = std::max(blow.event_rate, event_rate(0.5 * share * face, speed, height[i], s, settings));
-    if (speed > settings.reference_speed && time <= look_ahead * dt) blow.soon = std::max(blow.soon, share);
+    if (is_soon) blow.soon = std::max(blow.soon, share);
   }
   return blow;
 }
@@ -324,7 +329,12 @@ void foresee(const ContactPair& pair, const PairFrame& s, const ContactSettings&
     }
   }
   // An edge may still land on the plane of the contact.
-  if (constexpr int all[few] = {0, 1, 2, 3, 4, 5, 6, 7}; each_corner && !flat && corners_known(s)) {
+  if (each_corner && !flat) {
+    static constexpr auto all = [] {
+      std::array<int, most_vertices> corner{};
+      std::iota(corner.begin(), corner.end(), 0);
+      return corner;
+    }();
     const auto corners = [&](const ContactShape& shape) { return std::span(all).first(shape.vertex.size()); };
     const CornersOverPlane over = of_other ? CornersOverPlane{*s.other, o, r, corners(*s.other), n, n.dot(at)}
                                            : CornersOverPlane{*s.reference, r, o, corners(*s.reference), -n, n.dot(apart - at)};
