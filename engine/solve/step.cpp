@@ -315,7 +315,8 @@ void Solver::note_excess(int b) {
 }
 
 // Joints and contacts conserve the momentum of all blocks, supports included: their forces and moments must sum to zero. Forces that do
-// not change more than the last digits of any momentum, as a contact has them that just ends, are round-off and prove nothing.
+// not change more than the last digits of any momentum, as a contact has them that just ends, are round-off and prove nothing. The measure
+// of a moment is that of each force with its whole arm: of a force through the centre of the first block only round-off is left.
 void Solver::check_momentum() {
   Vec3 force = Vec3::Zero(), moment = Vec3::Zero();
   double forces = 0, moments = 0, momentum = 0, angular = 0;
@@ -325,7 +326,7 @@ void Solver::check_momentum() {
     force += f;
     moment += m;
     forces += f.norm();
-    moments += m.norm();
+    moments += arm.norm() * f.norm() + w.tail<3>().norm();
     if (model_.kind[z(b)] != Kind::moving) continue;
     const double moves = model_.mass[z(b)] * Vec3(state_.motion.v[z(b)]).norm();
     momentum += moves;
