@@ -8,9 +8,61 @@
 #include <utility>
 
 #include "engine/base/count.h"
+#include "engine/geometry/separation.h"
 
 namespace erbs {
 namespace {
+
+// Bounding box of a block in the given axes; the third axis points upward.
+Box upright_box(const Block& block, const Mat3& axes) {
+  Box box{Vec3::Constant(std::numeric_limits<double>::infinity()), Vec3::Constant(-std::numeric_limits<double>::infinity())};
+  for (const Polyhedron& part : block.parts)
+    for (const Vec3& v : part.vertices) {
+      const Vec3 x = axes.transpose() * v;
+      box.low = box.low.cwiseMin(x), box.high = box.high.cwiseMax(x);
+    }
+  return box;
+}
+
+// m, along the normal of the faces between them, which on a slope is not the vertical. `enough`: a larger gap is of no interest.
+double gap_between(const Block& one, const Block& other, double enough) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const Polyhedron& p : one.parts)
+    for (const Polyhedron& q : other.parts) least = std::min(least, separation(p, q, enough).gap);
+  return least;
+}
+
+// ": 'b1' lies 3 mm above 'ground'": the smallest gap of an island to a block below; "" if there is none. `root`: island of each block.
+std::string nearest_below(const Scene& scene, const std::vector<int>& root, int island) {
+  constexpr double touching = 1e-7;  // m
+  if (!(scene.gravity.norm() > 0)) return "";
+  const Vec3 up = -scene.gravity.normalized(), across = up.unitOrthogonal();
+  Mat3 axes;
+  axes << across, up.cross(across), up;
+  std::vector<Box> box;
+  for (const Block& block : scene.blocks) box.push_back(upright_box(block, axes));
+  std::vector<int> own;
+  for (int b = 0; b < int(root.size()); ++b)
+    if (root[z(b)] == island) own.push_back(b);
+  const std::size_t lowest = std::min<std::size_t>(own.size(), 100);
+  std::partial_sort(own.begin(), own.begin() + std::ptrdiff_t(lowest), own.end(),
+                    [&](int b, int c) { return std::make_pair(box[z(b)].low.z(), b) < std::make_pair(box[z(c)].low.z(), c); });
+  own.resize(lowest);
+  double least = std::numeric_limits<double>::infinity();
+  std::string text;
+  for (const int b : own)
+    for (int c = 0; c < int(root.size()); ++c) {
+      const Box &p = box[z(b)], &q = box[z(c)];
+      const bool over = p.low.x() < q.high.x() && q.low.x() < p.high.x() && p.low.y() < q.high.y() && q.low.y() < p.high.y();
+      if (root[z(c)] == island || !over || q.low.z() > p.low.z() || p.low.z() - q.high.z() >= least) continue;
+      const double gap = gap_between(scene.blocks[z(c)], scene.blocks[z(b)], least);
+      if (gap >= least) continue;
+      least = gap;
+      const std::string how = gap > touching ? fmt::format("lies {:.4g} mm above", 1e3 * gap) : "touches";
+      text = fmt::format(": '{}' {} '{}'", scene.blocks[z(b)].name, how, scene.blocks[z(c)].name);
+    }
+  return text;
+}
 
 // Blocks without a joint that neither start in motion nor have free = true. Blocks of one script line are one mistake.
 void check_loose(const Scene& scene, const Interfaces& found, const std::vector<Kind>& kind, std::vector<std::string>& errors) {
@@ -25,14 +77,16 @@ void check_loose(const Scene& scene, const Interfaces& found, const std::vector<
     if (first) ++others;
     else first = &block;
   }
+  std::vector<int> alone(z(nblock));
+  std::iota(alone.begin(), alone.end(), 0);
   for (const auto& [line, group] : by_line) {
     const auto& [block, others] = group;
     const std::string who = others > 0 ? fmt::format("block '{}' and {} more of this line have", block->name, others)
                                        : fmt::format("block '{}' has", block->name);
     errors.push_back(
-        fmt::format("{}: {} no joint with any other; let a face meet a neighbour within a joint's thickness and tolerance, "
+        fmt::format("{}: {} no joint with any other{}; let a face meet a neighbour within a joint's thickness and tolerance, "
                     "give a joint{{}} rule for its group, or say free = true",
-                    block->place.text(), who));
+                    block->place.text(), who, nearest_below(scene, alone, int(block - scene.blocks.data()))));
   }
 }
 
@@ -117,42 +171,6 @@ void check_unjoined(const Scene& scene, const Interfaces& found, std::vector<std
   }
 }
 
-// Bounding box of a block in the given axes; the third axis points upward.
-Box upright_box(const Block& block, const Mat3& axes) {
-  Box box{Vec3::Constant(std::numeric_limits<double>::infinity()), Vec3::Constant(-std::numeric_limits<double>::infinity())};
-  for (const Polyhedron& part : block.parts)
-    for (const Vec3& v : part.vertices) {
-      const Vec3 x = axes.transpose() * v;
-      box.low = box.low.cwiseMin(x), box.high = box.high.cwiseMax(x);
-    }
-  return box;
-}
-
-// ": 'b1' lies 3 mm above 'ground'": the smallest gap to a block below; "" if there is none.
-std::string nearest_below(const Scene& scene, const std::vector<int>& root, int island, const Mat3& axes) {
-  std::vector<Box> box;
-  for (const Block& block : scene.blocks) box.push_back(upright_box(block, axes));
-  std::vector<int> own;
-  for (int b = 0; b < int(root.size()); ++b)
-    if (root[z(b)] == island) own.push_back(b);
-  const std::size_t lowest = std::min<std::size_t>(own.size(), 100);
-  std::partial_sort(own.begin(), own.begin() + std::ptrdiff_t(lowest), own.end(),
-                    [&](int b, int c) { return std::make_pair(box[z(b)].low.z(), b) < std::make_pair(box[z(c)].low.z(), c); });
-  own.resize(lowest);
-  double least = std::numeric_limits<double>::infinity();
-  std::string text;
-  for (const int b : own)
-    for (int c = 0; c < int(root.size()); ++c) {
-      const Box &p = box[z(b)], &q = box[z(c)];
-      const bool over = p.low.x() < q.high.x() && q.low.x() < p.high.x() && p.low.y() < q.high.y() && q.low.y() < p.high.y();
-      const double gap = p.low.z() - q.high.z();
-      if (root[z(c)] == island || !over || gap >= least || q.low.z() > p.low.z()) continue;
-      least = gap;
-      text = fmt::format(": '{}' lies {:.4g} mm above '{}'", scene.blocks[z(b)].name, 1e3 * gap, scene.blocks[z(c)].name);
-    }
-  return text;
-}
-
 // Groups of joined blocks without any path of joints to a fixed or driven block, in which no block starts in motion or has free = true.
 void check_floating(const Scene& scene, const Interfaces& found, const std::vector<Kind>& kind, std::vector<std::string>& errors) {
   if (!(scene.gravity.norm() > 0)) return;
@@ -183,14 +201,11 @@ void check_floating(const Scene& scene, const Interfaces& found, const std::vect
     if (root[z(b)] == b && size[z(b)] > 1 && !held[z(b)]) floating.push_back(b);
   if (floating.empty()) return;
   const int first = floating.front(), others = int(floating.size()) - 1;
-  const Vec3 up = -scene.gravity.normalized(), across = up.unitOrthogonal();
-  Mat3 axes;
-  axes << across, up.cross(across), up;
   const Block& block = scene.blocks[z(first)];
   errors.push_back(fmt::format(
       "{}: the {} blocks joined to '{}' have no way to the ground, no joint leads to a fixed block{}{}; bring them within a joint's "
       "thickness and tolerance, or say free = true where they are to fall",
-      block.place.text(), size[z(first)], block.name, nearest_below(scene, root, first, axes),
+      block.place.text(), size[z(first)], block.name, nearest_below(scene, root, first),
       others > 0 ? fmt::format(" ({} more such group{})", others, others > 1 ? "s" : "") : ""));
 }
 

@@ -42,6 +42,21 @@ TEST_CASE("a joined stack above the ground is refused, unless it says that it is
   CHECK(refused(scene_with("gravity(0)\nlift, loose = 3*mm, false\n" + stack)).empty());
 }
 
+TEST_CASE("a gap to what lies below is that of the faces, on a slope too, and of a single block too", "[model]") {
+  const std::string slope =
+      "transform{ rotation = {.4, .2, .1}, function()\n"
+      "box{ name = 'base', size = {9, 9, .2}, center = {0, 0, 1.9}, fixed = true }\n";
+  const auto lifted = refused(scene_with("lift, loose = 2 + 3*mm, false\n" + slope + stack + "end }\n"));
+  REQUIRE(lifted.size() == 1);
+  CHECK(contains(lifted[0], "'b0' lies 3 mm above 'base'"));
+  const auto single = refused(scene_with(slope + "box{ name = 'b', size = {.3, .2, .1}, at = {0, 0, 2 + 4*mm} } end }\n"));
+  REQUIRE(single.size() == 1);
+  CHECK(contains(single[0], "block 'b' has no joint with any other: 'b' lies 4 mm above 'base'; let a face"));
+  const auto beside = refused(scene_with("box{ name = 'b', size = {.3, .2, .1}, at = {50, 0, 0} }\n"));
+  REQUIRE(beside.size() == 1);
+  CHECK(contains(beside[0], "block 'b' has no joint with any other; let a face"));
+}
+
 TEST_CASE("joints across a gap that is not the rule's are counted", "[model]") {
   const auto told = [](const std::string& rule) {
     return build(scene_with(rule + "box{ name = 'a', size = {.3, .2, .1}, at = {0, 0, 4*mm} }\n"
