@@ -12,6 +12,17 @@ namespace {
 
 Vec3 place_of(const Model& m, const State& s, int b) { return m.rest[z(b)] + s.pose.u[z(b)]; }
 
+// m, along `up`: the lowest corner of what does not move by itself. What is still above it may slide down a slope.
+double foot_of_ground(const Model& m, const Vec3& up) {
+  double low = std::numeric_limits<double>::infinity();
+  for (int b = 0; b < m.nblock; ++b) {
+    if (m.kind[z(b)] == Kind::moving) continue;
+    for (const Polyhedron& part : m.parts[z(b)])
+      for (const Vec3& corner : part.vertices) low = std::min(low, up.dot(corner));
+  }
+  return low;
+}
+
 }  // namespace
 
 std::vector<int> blocks_past_ground(const Model& m, const State& s) {
@@ -27,7 +38,11 @@ std::vector<int> blocks_past_ground(const Model& m, const State& s) {
 }
 
 std::string lost_blocks(const Model& m, const State& s) {
-  const std::vector<int> lost = blocks_past_ground(m, s);
+  std::vector<int> lost = blocks_past_ground(m, s);
+  if (lost.empty()) return {};
+  const Vec3 up = -m.gravity.normalized();
+  const double foot = foot_of_ground(m, up);
+  std::erase_if(lost, [&](int b) { return up.dot(place_of(m, s, b)) > foot; });
   if (lost.empty()) return {};
   double farthest = 0;  // m, horizontal distance from the centre of the ground
   for (const int b : lost) farthest = std::max(farthest, place_of(m, s, b).head<2>().lpNorm<Eigen::Infinity>() + m.smallest_edge[z(b)]);

@@ -2,6 +2,7 @@
 #include "engine/model/lost_blocks.h"
 
 #include <catch2/catch.hpp>
+#include <cmath>
 
 #include "engine/model/build/build.h"
 #include "tests/unit/lua/load.h"
@@ -25,4 +26,19 @@ TEST_CASE("a block beyond the ground is told with its place and a ground that re
   CHECK(contains(said, "ground{ size = 17 } reaches below it"));  // 2 x (7.5 + .1) + 1, rounded up
   built.state.pose.u[1] = Vec3(-20, 0, -30);
   CHECK(contains(lost_blocks(built.model, built.state), "reaches below all of them"));
+}
+
+TEST_CASE("a block that slides far down a fixed slope is not lost", "[model]") {
+  Script script(quiet());
+  const Scene scene = script.load_text(
+      "material{ name = 'brick', density = 1800 }\nanalysis{ duration = 1 }\n"
+      "transform{ rotation = {0, .6, 0}, function()\n"
+      "box{ name = 'slope', size = {20, 2, .2}, center = {0, 0, -.1}, fixed = true }\n"
+      "box{ name = 'b', size = {.3, .2, .1}, center = {0, 0, .05}, free = true } end }\n",
+      "slope.lua");
+  Built built = build(scene);
+  built.state.pose.u[1] = Vec3(5 * std::cos(.6), 0, -5 * std::sin(.6));
+  CHECK(lost_blocks(built.model, built.state).empty());
+  built.state.pose.u[1] = Vec3(15 * std::cos(.6), 0, -15 * std::sin(.6));
+  CHECK(contains(lost_blocks(built.model, built.state), "1 block fell past the ground"));
 }
