@@ -84,7 +84,8 @@ int call(const CLI::App& app, const CommandLine& line) {
   std::vector<std::string> words = line.words;
   for (const auto& word : verb.remaining()) words.push_back(word);
   if (name == "render") return verb_render(words);
-  // CLI11 prints the help of a verb
+  if (!words.empty() && words.front() == "render") return verb_render({"--help"});
+  // CLI11 prints the help of every other verb
   if (!words.empty())
     for (const CLI::App* other : app.get_subcommands({}))
       if (other->get_name() == words.front()) {

@@ -63,6 +63,8 @@ TEST_CASE("the command line is checked", "[program]") {
   CHECK(contains(bench.said, "tensile strength (Pa; 0 to 1e+09; required)"));
   CHECK(bench.erbs({"help", "run"}) == 0);
   CHECK(contains(bench.said, "--max-wall"));
+  CHECK(bench.erbs({"help", "render"}) == 0);
+  CHECK(contains(bench.said, "--stills"));
   CHECK(bench.erbs({"help", "record"}) == 0);  // a verb and a function of scenes
   CHECK(contains(bench.said, "smoothing"));
   CHECK(contains(bench.said, "In a scene:"));
