@@ -213,12 +213,16 @@ double Solver::event_rate_of_breaks() {
 
 // Event rate (1/s) of intact joints whose blocks move apart or together at the start, so fast that in two steps they may yield, at once or
 // as they swing back: until they have cracked nothing else predicts them. They err as one-sided springs do, each by its whole stiffness.
+// A joint may also start beyond its limits, as that of a block that is let go on its edge. The strip that bears grows with the load, and a
+// swing on it errs as a change of the step does.
 double Solver::event_rate_at_start() const {
   const double allowance = event_allowance(model_, state_);
   double event_rate = 0;
+  bool tilted = false;
   for (int j = 0; j < model_.njoint && allowance > 0; ++j) {
     const JointType& type = *model_.joint[z(j)].type;
-    if (state_.joints.stage[z(j)] != JointStage::intact) continue;
+    const JointStage stage = state_.joints.stage[z(j)];
+    if (stage == JointStage::contact) continue;
     const JointMotion now = joint_motion(model_, state_, j);
     const auto limits = scalar::yield_limits(model_.laws[z(type.law)]);
     const auto may_yield = [&](double time) {
@@ -226,12 +230,14 @@ double Solver::event_rate_at_start() const {
       for (int i = 0; i < 6; ++i) gap[i] = now.gap[i] + time * now.rate[i];
       return scalar::face_bound(limits, gap, type.half_s, type.half_t, type.radius) > 0;
     };
+    tilted = tilted || may_yield(0);
+    if (stage != JointStage::intact) continue;
     double power = 0;
     for (int i = 0; i < 6; ++i) power += type.stiffness[i] * now.rate[i] * now.rate[i];
     if (power > 0 && (may_yield(2 * state_.time.dt) || may_yield(-2 * state_.time.dt)))
       event_rate = std::max(event_rate, std::sqrt(event_share / allowance * power));
   }
-  return event_rate;
+  return tilted ? std::max(event_rate, std::sqrt(vibration(Part::all) / (8 * allowance))) : event_rate;
 }
 
 // Time step that the next openings and closings allow (`event_bound.h`).
