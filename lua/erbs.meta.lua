@@ -737,7 +737,7 @@ function figure(keys) end
 ---@field max_wall? number|string longest time of a run: seconds, or "5m"; beyond it the run is ended [default 1h]
 ---@field memory? number|string most memory of a run: bytes, or "2GB" (default: that of the machine over the runs at once)
 ---@field keep? "none"|"metrics"|"all" what stays of each run in runs/ [default metrics]
----@field title? string title of results.svg, the figure of the bisected param or the first of collect
+---@field title? string title of results.svg, the figure of the bisected param or the first of collect, and of the page of erbs report
 ---@field x? string label of its horizontal axis: quantity and unit (default the column)
 ---@field y? string label of its vertical axis (default the column)
 ---@field split? string a varied param; each of its values has a figure of its own, such as results_method_1.svg

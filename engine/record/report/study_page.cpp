@@ -79,6 +79,7 @@ void read_sweep(const fs::path& dir, const std::string& page, ReportedStudy& stu
       study.answers.emplace_back("scene", json["scene"].get<std::string>());
       if (study.title == study.kind) study.title = fs::path(study.answers.back().second).stem().string();  // else it would stand twice
     }
+    if (const std::string title = json.value("title", ""); !title.empty()) study.title = title;
   }
   const CsvTable& rows = table.table;
   const int first = params.empty() ? -1 : first_of(rows, {params[0]}), second = params.size() < 2 ? -1 : first_of(rows, {params[1]});

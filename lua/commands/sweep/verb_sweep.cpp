@@ -79,13 +79,14 @@ void prepare_folder(const SweepStudy& study, const SweepCommand& command, const 
   const std::string identity = in(directory, identity_file);
   Json now = study.identity;
   now["key"] = study.sweep.key;
+  now["title"] = study.sweep.plan.title;  // of its figures and its page; it changes no result, and is no part of the key
   if (fs::exists(identity)) {
     const Json before = read_json(identity);
     if (before.value("key", "") != study.sweep.key)
       throw Error(
           fmt::format("\"{}\" holds the results of another study: {}; choose another folder with -o DIR, or replace it with --force",
                       directory, difference(before, now)));
-    if (ranks.launch.empty()) return;
+    if (ranks.launch.empty() && before.value("title", "") == now.value("title", "")) return;
   }
   now["launch"] = ranks.launch;
   write_json(identity, now);

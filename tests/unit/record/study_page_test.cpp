@@ -62,6 +62,15 @@ TEST_CASE("the title of a sweep is not its kind once more", "[record][report][st
   }
 }
 
+TEST_CASE("the page of a sweep has the title that the study gives", "[record][report][study_page]") {
+  const test::Folder dir;
+  write(dir.path / "results.csv", "index,shake_m_s2,collapsed,runs,status,reason,study\n0,1.5,0,1,completed,,k\n");
+  write(dir.path / "study.json", R"({"scene": "wall.lua", "title": "Walls & <b>piers</b>", "study": {"axes": [], "collect": []}})");
+  const ReportedStudy study = read_reported_study(dir.path.string(), study_page_path(dir.path.string()));
+  CHECK(study.title == "Walls & <b>piers</b>");
+  CHECK(study_html(study, page, "").find("<title>Walls &amp; &lt;b&gt;piers&lt;/b&gt;</title>") != std::string::npos);
+}
+
 TEST_CASE("the page of accuracy has errors over cost, on logarithmic axes", "[record][report][study_page]") {
   const test::Folder dir;
   write(dir.path / "accuracy.csv",
