@@ -93,10 +93,17 @@ RecordRows parse_rows(RecordText& text, const Record& wanted) {
 
 void check_widths(const RecordText& text, const RecordRows& rows) {
   const size_t width = rows.columns.empty() ? rows.cells.front().size() : rows.columns.size();
-  for (size_t r = 0; r < rows.cells.size(); ++r)
-    if (rows.cells[r].size() != width)
-      throw Error(fmt::format("{} number(s) where the lines before have {}; complete the line", rows.cells[r].size(), width),
-                  {text.path, rows.lines[r]});
+  for (size_t r = 0; r < rows.cells.size(); ++r) {
+    const size_t count = rows.cells[r].size();
+    if (count == width) continue;
+    const bool commas = text.given.empty() && text.lines[static_cast<size_t>(rows.lines[r]) - 1].find(',') != std::string::npos;
+    const char* remedy = count < width ? "complete the line"
+                         : commas ? "take out what is too much; for commas that are decimal marks say decimal = \"comma\" in the scene, "
+                                    "or --decimal comma to erbs record"
+                                  : "take out what is too much";
+    throw Error(fmt::format("{} number{} where the lines before have {}; {}", count, count == 1 ? "" : "s", width, remedy),
+                {text.path, rows.lines[r]});
+  }
 }
 
 // Values without times, one or several per line, read line by line.

@@ -49,15 +49,20 @@ size_t end_of_number(std::string_view s, size_t at) {
   return end;
 }
 
+// The line as it stands in the file, its places those of the line that is read.
+std::string_view given_line(const RecordText& text, size_t index) {
+  return index < text.given.size() && !text.given[index].empty() ? text.given[index] : text.lines[index];
+}
+
 [[noreturn]] void not_a_number(const RecordText& text, size_t index, size_t at) {
-  const std::string_view line = text.lines[index];
+  const std::string_view line = text.lines[index], given = given_line(text, index);
   size_t end = at;
   while (end < line.size() && !separator(line[end]) && end < at + 24) ++end;
   // Quote a word only if it begins like a number. The file may be no record, and the message must not reveal its content.
   const std::string_view word = line.substr(at, end - at);
   const bool quoted = digit(word[0]) || sign(word[0]) || word[0] == '.' || word == "nan" || word == "inf";
   throw Error(fmt::format("column {}: {} is not a number; correct it, or begin the line with # if it is a comment", at + 1,
-                          quoted ? "\"" + shown(word, 24) + "\"" : "what stands there"),
+                          quoted ? "\"" + shown(given.substr(at, end - at), 24) + "\"" : "what stands there"),
               {text.path, static_cast<int>(index) + 1});
 }
 
@@ -69,7 +74,8 @@ double number(const RecordText& text, size_t index, size_t from, size_t to) {
   double result = 0;
   const auto [end, code] = std::from_chars(first, digits.data() + digits.size(), result);
   if (code == std::errc::result_out_of_range)
-    throw Error(fmt::format("column {}: {} is beyond what a number can hold; correct it", from + 1, shown(digits, 24)),
+    throw Error(fmt::format("column {}: {} is beyond what a number can hold; correct it", from + 1,
+                            shown(given_line(text, index).substr(from, to - from), 24)),
                 {text.path, static_cast<int>(index) + 1});
   if (code != std::errc() || end != digits.data() + digits.size()) not_a_number(text, index, from);
   return result;
@@ -89,7 +95,7 @@ RecordText read_record_text(const std::string& path) {
   } catch (const std::ios_base::failure&) { throw Error("the record file cannot be read; name one with numbers", {path}); }
   if (bytes.starts_with("\xFF\xFE") || bytes.starts_with("\xFE\xFF") || bytes.find('\0') != std::string::npos)
     throw Error("is no plain text, or text in UTF-16; save it as UTF-8", {path});
-  RecordText text{path, hash_text(bytes), {}};
+  RecordText text{path, hash_text(bytes), {}, {}};
   std::string_view rest = bytes;
   if (rest.substr(0, 3) == "\xEF\xBB\xBF") rest.remove_prefix(3);  // byte order mark, written by some editors
   bool blank = true;
@@ -165,6 +171,8 @@ void replace_decimal_commas(RecordText& text, size_t first, size_t last) {
   for (size_t i = first; i < last; ++i) {
     std::string& line = text.lines[i];
     if (is_comment(line)) continue;
+    text.given.resize(text.lines.size());
+    text.given[i] = line;
     for (size_t at = 0; at + 1 < line.size(); ++at)
       if (line[at] == ',' && digit(line[at + 1])) line[at] = '.';
   }

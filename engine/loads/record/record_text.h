@@ -11,6 +11,7 @@ struct RecordText {
   std::string path;
   std::string hash;                // of the bytes
   std::vector<std::string> lines;  // without line ends
+  std::vector<std::string> given;  // as they stand in the file, where decimal commas have been replaced; else empty
 };
 
 // Throws Error if the file is missing, a folder, unreadable or blank.

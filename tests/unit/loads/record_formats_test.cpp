@@ -102,6 +102,16 @@ TEST_CASE("CSMIP V2 says its step beside the count", "[loads][record]") {
   CHECK(r.acceleration.values[10] == Approx(std::sin(0.4)).epsilon(1e-4));
 }
 
+TEST_CASE("a mistake in a file with decimal commas quotes the file", "[loads][record][bad_input]") {
+  const auto commas = [](Record& r) { r.unit = "m/s2", r.decimal = "comma"; };
+  CHECK_THAT(mistake_in("0,0 1,5\n0,1 1,2x3\n", in_g), Contains("motion.txt:2: column 5: \"1,2x3\" is not a number"));
+  CHECK_THAT(mistake_in("0,0; 1,5\n0,1; 1.234,5\n", commas), Contains("motion.txt:2: column 6: \"1.234,5\" is not a number"));
+  CHECK_THAT(mistake_in("0,0; 1,5\n0,1; 1,5e999\n", commas), Contains("motion.txt:2: column 6: 1,5e999 is beyond"));
+  CHECK_THAT(mistake_in("0.0; 1.5\n0,1; 1.5\n", in_g),
+             Contains("3 numbers where the lines before have 2; take out") && Contains("--decimal comma"));
+  CHECK_THAT(mistake_in("0.0 1.5\n0.1 1.5 2\n", in_g), Contains("have 2; take out what is too much") && !Contains("comma"));
+}
+
 TEST_CASE("decimal commas are told from commas between columns", "[loads][record]") {
   const auto in_g = [](Record& r) { r.unit = "m/s2"; };
   for (const char* text : {"0,00; 1,5\n0,01; -2,5\n", "0,00\t1,5\n0,01\t-2,5\n", "0,00 1,5\n0,01 -2,5\n", "0;1,5\n,01;-2,5\n",
