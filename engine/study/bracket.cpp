@@ -8,7 +8,7 @@
 
 namespace erbs::study {
 
-std::string said(const Answer& a) { return fmt::format("{:.6g}: {}", a.x, a.reason); }
+std::string said(const Answer& a) { return fmt::format("at {:.10g}: {}", a.x, a.reason); }
 
 std::string first_reason(const std::vector<Answer>& answers) {
   for (const Answer& a : answers)

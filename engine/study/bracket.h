@@ -13,7 +13,7 @@ struct Answer {
   std::string reason;
 };
 
-std::string said(const Answer& answer);                        // "2.5: crashed"
+std::string said(const Answer& answer);                        // "at 2.5: crashed"
 std::string first_reason(const std::vector<Answer>& answers);  // of the first answer without a value; "" if all have one
 
 // Multisection: `points` runs at a time between the ends. The smallest value whose answer is yes (not 0) is the new upper end. A run

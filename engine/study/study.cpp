@@ -105,6 +105,14 @@ StudyResult carry_out(const Study& study, const RunAll& runs) {
   return out;
 }
 
+std::string question_words(const Study& s) {
+  const char* words = s.kind == Study::Kind::bisect     ? "collapsed_when of bisect"
+                      : s.kind == Study::Kind::ensemble ? "value of ensemble"
+                      : s.finest                        ? "value of converge"
+                                                        : "error of converge";
+  return fmt::format("{} \"{}\"", words, s.name);
+}
+
 std::vector<std::string> metric_names(const Study& s) {
   std::vector<std::string> endings{"", "_lo", "_hi"};
   if (s.kind == Study::Kind::converge) endings = {"_slope", "_error", "_least", "_most"};

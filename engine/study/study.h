@@ -36,6 +36,9 @@ struct StudyResult {
   std::string trouble;                                                 // why a metric has no value; "" if all have one
 };
 
+// What messages call the function of the scene that each run answers: value of ensemble "falls_at".
+std::string question_words(const Study& study);
+
 StudyResult carry_out(const Study& study, const RunAll& runs);
 std::vector<std::string> metric_names(const Study& study);
 

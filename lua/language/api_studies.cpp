@@ -21,7 +21,8 @@ const Param* param_of(const Context& context, const std::string& name) {
 // Registers the question of a study: a function of the scene that each of its runs evaluates like a metric.
 void question(Call& call, Arguments& arguments, const char* key, const study::Study& study) {
   const int function = arguments.function(key);
-  if (call.context.study == study.name && function != LUA_NOREF) call.context.metrics.push_back({"study", "", 0, function, call.place});
+  if (call.context.study == study.name && function != LUA_NOREF)
+    call.context.metrics.push_back({"study", "", 0, function, call.place, study::question_words(study)});
 }
 
 int add(Call& call, Arguments& arguments, study::Study study, const char* key) {

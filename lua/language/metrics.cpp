@@ -179,10 +179,37 @@ void push_events(lua_State* lua, const CsvTable& events) {
   }
 }
 
+// run.metrics.NAME of a metric of the scene is nil, as is run.metrics.metrics.NAME: no metric sees another one. What asks for one is told
+// so if it ends without a value.
+int absent_key(lua_State* lua, Context& context) {
+  if (lua_type(lua, 2) == LUA_TSTRING) {
+    const std::string key = lua_tostring(lua, 2);
+    const auto is_key = [&](const auto& name) { return name == key; };
+    const auto of_study = [&](const study::Study& one) { return std::ranges::any_of(study::metric_names(one), is_key); };
+    if (std::ranges::any_of(context.scene.metric_units, is_key, [](const auto& item) { return item.first; }) &&
+        std::ranges::none_of(context.studies, of_study))
+      context.unseen = key;
+  }
+  lua_pushnil(lua);
+  return 1;
+}
+
+void tell_of_absent_keys(lua_State* lua) {
+  lua_createtable(lua, 0, 1);
+  push_guarded(lua, absent_key);
+  lua_setfield(lua, -2, "__index");
+  lua_setmetatable(lua, -2);
+}
+
 // The table `run`: the keys of metrics.json, then time, metrics, columns and the functions above.
 void push_run(lua_State* lua, const RunResults& run) {
   push_json(lua, run.metrics.is_object() ? run.metrics : Json::object());
   push_json(lua, run.metrics);
+  if (lua_istable(lua, -1)) {
+    if (lua_getfield(lua, -1, "metrics") == LUA_TTABLE) tell_of_absent_keys(lua);
+    lua_pop(lua, 1);
+    tell_of_absent_keys(lua);
+  }
   lua_setfield(lua, -2, "metrics");
   push_numbers(lua, run.histories.columns.empty() ? std::vector<double>{} : run.histories.columns.front());
   lua_setfield(lua, -2, "time");
@@ -195,6 +222,22 @@ void push_run(lua_State* lua, const RunResults& run) {
     push_guarded(lua, body);
     lua_setfield(lua, -2, name);
   }
+}
+
+std::string called(const Metric& metric) { return metric.question.empty() ? fmt::format("metric \"{}\"", metric.name) : metric.question; }
+
+std::string hint_of(const Context& context) {
+  if (context.unseen.empty()) return "";
+  return fmt::format("; it asks for metric \"{}\", which no other one sees: let both call one local function", context.unseen);
+}
+
+// Why the function gave no value; "" if it may be so: a metric of the scene that is nil has none.
+std::string why_nil(const Context& context, const Metric& metric) {
+  if (metric.question.empty() && context.unseen.empty()) return "";
+  const char* remedy = metric.question.empty()                         ? ""
+                       : metric.question.starts_with("collapsed_when") ? "; return true or false"
+                                                                       : "; return a number";
+  return fmt::format("{}: {} gave nil and has no value{}{}", metric.place.text(), called(metric), remedy, hint_of(context));
 }
 
 }  // namespace
@@ -211,21 +254,23 @@ std::vector<MetricValue> Script::evaluate_metrics(const RunResults& results) {
     if (metric.function == LUA_NOREF) {
       value.value = metric.value;
     } else {
+      context.unseen.clear();
       try {
         lua_rawgeti(lua_, LUA_REGISTRYINDEX, metric.function);
         push_run(lua_, seen);
         call_script(lua_, context, 1, 1);
         if (lua_type(lua_, -1) == LUA_TNUMBER) value.value = lua_tonumber(lua_, -1);
         else if (lua_type(lua_, -1) == LUA_TBOOLEAN) value.value = lua_toboolean(lua_, -1);
-        else if (!lua_isnil(lua_, -1))
-          value.error = fmt::format("{}: metric \"{}\" gave {}; return a number, or nil for none", metric.place.text(), metric.name,
-                                    described(lua_, -1));
-      } catch (const Error& error) { value.error = error.what(); }
+        else if (lua_isnil(lua_, -1)) value.warning = why_nil(context, metric);
+        else
+          value.error =
+              fmt::format("{}: {} gave {}; return a number, or nil for none", metric.place.text(), called(metric), described(lua_, -1));
+      } catch (const Error& error) { value.error = std::string(error.what()) + hint_of(context); }
       lua_settop(lua_, 0);
     }
     if (value.value && !std::isfinite(*value.value)) {
-      value.warning = fmt::format("{}: metric \"{}\" is no finite number ({}) and has no value; return nil where there is none",
-                                  metric.place.text(), metric.name, std::isnan(*value.value) ? "0/0?" : "a division by 0?");
+      value.warning = fmt::format("{}: {} is no finite number ({}) and has no value; return nil where there is none", metric.place.text(),
+                                  called(metric), std::isnan(*value.value) ? "0/0?" : "a division by 0?");
       value.value.reset();
     }
     if (!context.study.empty() && metric.name != "study") value.error.clear(), value.warning.clear();  // it may need the studies themselves

@@ -29,6 +29,7 @@ struct Metric {
   double value = 0;
   int function = -2;  // reference in the Lua registry; LUA_NOREF if the value is given
   Place place;
+  std::string question;  // of a study: the words of its function, such as: value of ensemble "falls_at"; "" of a metric of the scene
 };
 
 // One curve of a figure.
@@ -111,6 +112,7 @@ struct Context {
   std::vector<std::string> files;    // names of the chunks that belong to the user
   bool incomplete = false;           // masonry with mistakes was left out; mistakes that follow from its absence are not reported
   const RunResults* run = nullptr;   // while metrics are evaluated
+  std::string unseen;                // a metric of the scene that the one at hand asks `run` for, in vain
   int includes = 0;                  // current depth of include
   bool quiet = false;                // print writes to `output` only
   int repeated = 0;                  // mistakes that were already reported

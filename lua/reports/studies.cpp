@@ -47,6 +47,7 @@ study::Sweep sweep_of(const Study& s, const Script& script, const std::string& p
   plan.keep = "all";
   plan.max_wall = command.max_wall.value_or(0);
   plan.collect = {updates};
+  plan.question = study::question_words(s);
   if (s.kind == Study::Kind::bisect) {
     plan.bisect = {s.param, s.lo, s.hi, s.rel, s.points, s.collapse ? "collapse.collapsed" : question, {}, !s.collapse, s.place};
     sweep.bisected = "x";

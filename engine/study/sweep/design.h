@@ -104,6 +104,7 @@ struct Plan {
   std::vector<Axis> axes;            // outermost first
   std::optional<Bisection> bisect;   // none: one run per point
   std::vector<std::string> collect;  // keys of metrics.json
+  std::string question;              // what runs call the metric "study", their answer to a study of a scene; "" in a sweep
   std::string keep = "metrics";      // of each run: none, metrics, all
   double max_wall = 0, memory = 0;   // s and bytes, of each run; 0: no limit
   std::string title;                 // of the figure

@@ -41,7 +41,18 @@ bool found_no_memory(const std::string& log) {
 
 std::string bytes_text(double bytes) { return fmt::format("{:.3g} MB", 1e-6 * bytes); }
 
-// The verdict at the key; none, with its reason, if the run gives none.
+// Why a key has no value: what the run said of its metric, else what may be.
+std::string why_absent(const Sweep& sweep, const std::string& key, const std::string& log) {
+  if (!key.starts_with("metrics.")) return fmt::format("{} has no value in this run", key);
+  const std::string name = key.substr(std::string("metrics.").size());
+  const std::string words = sweep.plan.question.empty() || name != "study" ? fmt::format("metric \"{}\"", name) : sweep.plan.question;
+  std::ifstream stream(log);
+  for (std::string line; std::getline(stream, line);)
+    if (line.find(words) != std::string::npos && line.find("has no value") != std::string::npos) return line;
+  return fmt::format("{} has no value: its function gave nil, or no finite number", key);
+}
+
+// The verdict at the key; none if the run gives none, with a reason if that is a word.
 std::string verdict_of(const Bisection& bisect, const Json& metrics, std::string& reason) {
   const Json* value = find_key(metrics, bisect.key);
   if (value != nullptr && value->is_boolean()) return value->get<bool>() ? "1" : "0";
@@ -51,7 +62,6 @@ std::string verdict_of(const Bisection& bisect, const Json& metrics, std::string
   }
   if (value != nullptr && value->is_string())
     reason = fmt::format("{} is the word \"{}\", and a verdict is a number, true or false", bisect.key, value->get<std::string>());
-  else reason = fmt::format("{} has no value in this run", bisect.key);
   return "nan";
 }
 
@@ -140,10 +150,13 @@ RunRow read_run(const Sweep& sweep, const Point& point, double x, const std::str
       // A time of collapse may well be absent; a metric of the scene has lost its number.
       // Variants may run scenes that have it not.
       if (row.values[k] == "nan" && key.starts_with("metrics.") && absent.empty() && sweep.variants.empty())
-        absent = fmt::format("{} has no value: its function gave nil, or no finite number", key);
+        absent = why_absent(sweep, key, log);
     }
     if (row.status != "completed") return row;
-    if (sweep.plan.bisect) row.verdict = verdict_of(*sweep.plan.bisect, metrics, row.reason);
+    if (sweep.plan.bisect) {
+      row.verdict = verdict_of(*sweep.plan.bisect, metrics, row.reason);
+      if (row.verdict == "nan" && row.reason.empty()) row.reason = why_absent(sweep, sweep.plan.bisect->key, log);
+    }
     if (!row.reason.empty()) row.status = "error";
     else row.reason = absent;
   } catch (const std::exception& trouble) { row.status = "error", row.reason = trouble.what(); }

@@ -82,6 +82,21 @@ TEST_CASE("a metric that is no finite number has no value and a warning, and is 
   for (const MetricValue& value : values) CHECK(value.error.empty());
 }
 
+TEST_CASE("a metric without a value that asked for another one is told that it sees none", "[lua]") {
+  const auto values = evaluate(
+      "metric('a', '', 2)\nmetric('b', '', function(run) return run.metrics.a end)\n"
+      "metric('c', '', function(run) return 2 * run.metrics.a end)\nmetric('d', '', function(run) return run.metrics.nope end)\n"
+      "metric('e', '', function(run) return run.metrics.a or 7 end)");
+  REQUIRE(values.size() == 5);
+  CHECK(values[1].warning ==
+        "scene.lua:7: metric \"b\" gave nil and has no value; it asks for metric \"a\", which no other one sees: let both call one local "
+        "function");
+  CHECK(contains(values[2].error, "scene.lua:8: attempt to perform arithmetic"));
+  CHECK(contains(values[2].error, "; it asks for metric \"a\", which"));
+  CHECK((values[3].warning.empty() && values[4].warning.empty()));
+  CHECK(*values[4].value == 7);
+}
+
 TEST_CASE("a metric reads the run and leaves the scene alone", "[lua]") {
   const auto values = evaluate(
       "metric('a', '', function(run) box{ size = {1, 1, 1}, at = {9, 9, 9}, free = true } return 1 end)\n"

@@ -123,6 +123,27 @@ TEST_CASE("a run of a study that fails is a row with its reason, and the others 
   CHECK(bench.metric("ensemble_deviation") == deviation);
 }
 
+TEST_CASE("a function of a study that gives nil is named with its line and remedy", "[lua][study]") {
+  StudyRun bench;
+  const std::string scene =
+      slope.substr(0, slope.find("bisect")) + "metric('way', 'm', function(run) return run.last('block_ux_rel_m') end)\n";
+  const auto reason = [&](const std::string& study) {
+    CHECK(bench.run(scene + study, {"--force"}) == 2);
+    for (const auto& file : fs::directory_iterator(bench.out() + "/studies"))
+      if (file.path().extension() == ".csv") return read_csv(file.path().string()).text[2].at(0);
+    return std::string("no table");
+  };
+  CHECK_THAT(
+      reason("bisect{ param = 'slope', lo = .1, hi = 1, collapsed_when = function(run) return run.metrics.way end }"),
+      Catch::Contains("scene.lua:12: collapsed_when of bisect \"collapse_slope\" gave nil and has no value; return true or false; it "
+                      "asks for metric \"way\""));
+  CHECK(contains(bench.said, "no answer at an end: at 0.1: "));
+  CHECK_THAT(reason("ensemble{ param = 'slope', name = 'few', n = 2, seed = 1, value = function(run) return nil end }"),
+             Catch::Contains("value of ensemble \"few\" gave nil and has no value; return a number"));
+  CHECK_THAT(reason("converge{ param = 'slope', values = { .2, .1 }, error = function(run) return run.metrics.way + 1 end }"),
+             Catch::Contains("attempt to perform arithmetic") && Catch::Contains("asks for metric \"way\""));
+}
+
 TEST_CASE("studies of a scene give the same for any number of runs at once, and end runs that take too long", "[lua][study]") {
   StudyRun bench;
   const std::string scene = slope + R"(
