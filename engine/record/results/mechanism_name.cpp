@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 #include <numeric>
+#include <span>
 
 #include "engine/base/count.h"
 #include "engine/base/error.h"
@@ -65,15 +66,18 @@ double extent(const Model& m, const std::vector<int>& blocks, const Vec3& along)
 
 // Moved joints by the direction of their normal: bed joints lie level, head joints stand.
 struct Cracks {
-  int beds = 0, heads = 0, slides = 0, hinges = 0, parts = 0;
-  // Courses that slide on each other, the upper ones further, look like one body that turns; no joint of it opens.
-  bool only_slide() const { return slides > 0 && hinges == 0 && slides == beds + heads; }
+  int beds = 0, heads = 0, slides = 0, hinges = 0, parts = 0, parted_beds = 0;
+  // Courses that slide on each other, the upper ones further, look like one body that turns; no bed of it opens, heads may part.
+  bool only_slide() const { return slides > 0 && hinges == 0 && parted_beds == 0; }
 };
+bool is_bed(const Model& m, int joint, const Vec3& up) { return std::fabs(m.joint[z(joint)].type->frame.col(2).dot(up)) > 0.7; }
+
 Cracks cracks_of(const Model& m, const Mechanism& joints, const Vec3& up) {
   Cracks out;
   for (const MovedJoint& moved : joints.moved) {
-    const double level = std::fabs(m.joint[z(moved.joint)].type->frame.col(2).dot(up));
-    (level > 0.7 ? out.beds : out.heads) += 1;
+    const bool bed = is_bed(m, moved.joint, up);
+    (bed ? out.beds : out.heads) += 1;
+    out.parted_beds += bed && moved.kind == Movement::part;
     (moved.kind == Movement::slide ? out.slides : moved.kind == Movement::part ? out.parts : out.hinges) += 1;
   }
   return out;
@@ -103,12 +107,46 @@ double mass_of(const Model& m, const std::vector<int>& blocks) {
   return sum;
 }
 
+// What turns as one body moves little next to its hinge: blocks that follow it count as well.
+void add_followers(const Model& m, const BlockMotions& motions, const RigidMotion& body, std::vector<int>& blocks) {
+  for (int b = 0; b < m.nblock; ++b) {
+    if (m.kind[z(b)] != Kind::moving) continue;
+    const Vec3 arm = m.rest[z(b)] - body.centre, u = body.shift + rotation(body.turn) * arm - arm;  // finite: it has moved by half an edge
+    const Vec3 du = motions.u[z(b)] - u, dt = motions.theta[z(b)] - body.turn;
+    const double all = m.mass[z(b)] * u.squaredNorm() + body.turn.dot(m.inertia[z(b)] * body.turn);
+    if (m.mass[z(b)] * du.squaredNorm() + dt.dot(m.inertia[z(b)] * dt) < as_one * as_one * all) blocks.push_back(b);
+  }
+  std::sort(blocks.begin(), blocks.end());
+  blocks.erase(std::unique(blocks.begin(), blocks.end()), blocks.end());
+}
+
+// Beds of levels all of which move: there a wall slides or opens from end to end, and no diagonal crack crosses it. [njoint]
+std::vector<char> beds_from_end_to_end(const Model& m, const Mechanism& joints, const std::vector<char>& inside, const Vec3& up) {
+  std::vector<char> moved(z(m.njoint)), out(z(m.njoint));
+  for (const MovedJoint& one : joints.moved) moved[z(one.joint)] = 1;
+  std::vector<std::pair<double, int>> beds;  // m, height; joint
+  for (int j = 0; j < m.njoint; ++j) {
+    const Joint& joint = m.joint[z(j)];
+    if (inside[z(joint.a)] && inside[z(joint.b)] && is_bed(m, j, up)) beds.emplace_back((m.rest[z(joint.a)] + joint.arm_a).dot(up), j);
+  }
+  std::sort(beds.begin(), beds.end());
+  for (std::size_t first = 0, end = 0; first < beds.size(); first = end) {
+    const double one_level = 1e-3 * (beds.back().first - beds.front().first);  // m
+    while (end < beds.size() && beds[end].first <= beds[first].first + one_level) ++end;
+    const auto level = std::span(beds).subspan(first, end - first);
+    const bool all = std::ranges::all_of(level, [&](const auto& bed) { return moved[z(bed.second)] != 0; });
+    for (const auto& bed : level) out[z(bed.second)] = all;
+  }
+  return out;
+}
+
 // Whether some crack of a wall, joints that share blocks, climbs through bed and head joints both along and up.
 bool has_diagonal_crack(const Model& m, const Mechanism& joints, const std::vector<char>& inside, const Vec3& along, const Vec3& up) {
+  const std::vector<char> level = beds_from_end_to_end(m, joints, inside, up);
   std::vector<MovedJoint> own;
   for (const MovedJoint& moved : joints.moved) {
     const Joint& joint = m.joint[z(moved.joint)];
-    if (inside[z(joint.a)] && inside[z(joint.b)]) own.push_back(moved);
+    if (inside[z(joint.a)] && inside[z(joint.b)] && level[z(moved.joint)] == 0) own.push_back(moved);
   }
   // Joints with a block in common belong to one crack.
   std::vector<std::size_t> crack(own.size());
@@ -132,7 +170,7 @@ bool has_diagonal_crack(const Model& m, const Mechanism& joints, const std::vect
     const Vec3 at = m.rest[z(joint.a)] + joint.arm_a;
     const double place[2] = {at.dot(along), at.dot(up)};
     for (int k = 0; k < 2; ++k) e.low[k] = std::min(e.low[k], place[k]), e.high[k] = std::max(e.high[k], place[k]);
-    (std::fabs(joint.type->frame.col(2).dot(up)) > 0.7 ? e.beds : e.heads) += 1;
+    (is_bed(m, own[i].joint, up) ? e.beds : e.heads) += 1;
   }
   return std::any_of(extents.begin(), extents.end(), [](const auto& one) {
     const Extent& e = one.second;
@@ -159,14 +197,15 @@ BlockMotions motions_of(const BlockPoses& pose, int nblock) {
 
 NamedMechanism name_mechanism(const Model& m, const BlockMotions& motions, const Mechanism& joints, const Vec3& push) {
   NamedMechanism out{"none", "", 0};
-  const std::vector<int> blocks = moving_blocks(m, motions);
+  std::vector<int> blocks = moving_blocks(m, motions);
   if (blocks.empty()) return out;
   double all = 0;
   for (int b = 0; b < m.nblock; ++b)
     if (m.kind[z(b)] == Kind::moving) all += m.mass[z(b)];
-  out.moving_share = mass_of(m, blocks) / all;
   const Vec3 up = m.gravity.norm() > 0 ? Vec3(-m.gravity.normalized()) : Vec3::UnitZ();
   const RigidMotion body = rigid_motion(m, motions, blocks);
+  if (body.residual < as_one) add_followers(m, motions, body, blocks);
+  out.moving_share = mass_of(m, blocks) / all;
   const Cracks cracks = cracks_of(m, joints, up);
   const bool stepped = cracks.beds > 1 && cracks.heads > 1;
   if (cracks.parts > 0 && cracks.hinges + cracks.slides == 0) {
