@@ -560,7 +560,7 @@ function damping(keys) end
 ---@field unbalanced? number tilt, pushover: mean unbalanced force over mean applied force in equilibrium [1e-09 to 0.01; default 1e-05]
 ---@field limit? "auto"|"always"|"never" tilt, pushover: limit analysis beside the capacity; auto: up to 12000 contact points of the limit problem, where it takes seconds [default auto]
 ---@field fall? number tilt, pushover: the longest time of the fall that is drawn after the capacity is known (0: none; the mechanism is named all the same) [s; 0 to 1000; default 4]
----@field direction? "x"|"y"|"z"|erbs.vec3 tilt: side that goes down; pushover: direction of the acceleration on the masses [-1e+09 to 1e+09; default "x"]
+---@field direction? "x"|"y"|"z"|erbs.vec3 tilt: side that goes down; pushover: direction of the acceleration on the masses (default "x"; with a pattern that of its resultant) [-1e+09 to 1e+09]
 ---@field path? number[] tilt, pushover: multipliers (tilt: rad) to visit in turn before the push to the end
 ---@field pattern? { block?: string, group?: string, force: erbs.vec3 }[] pushover: forces at the multiplier 1 (default: g times the mass of each block, along direction)
 ---@field monitor? { block?: string, point?: erbs.vec3 } point whose displacement along direction is the abscissa of the curve

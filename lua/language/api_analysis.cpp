@@ -1,4 +1,5 @@
 // Functions of a script: damping, analysis, recorders and cameras.
+#include <cmath>
 #include <lua5.4/lua.hpp>
 
 #include "lua/language/api.h"
@@ -19,8 +20,10 @@ Keys monitor_keys() { return keys_of<Monitor>(); }
 
 // Keys of analysis{} besides the fields of `PushSettings`.
 Keys push_keys() {
-  return {{"direction", "direction", "", "tilt: side that goes down; pushover: direction of the acceleration on the masses", -1e9, 1e9,
-           false, "", "\"x\""},
+  return {{"direction", "direction", "",
+           "tilt: side that goes down; pushover: direction of the acceleration on the masses (default \"x\"; with a pattern that of its "
+           "resultant)",
+           -1e9, 1e9},
           {"path", "numbers", "", "tilt, pushover: multipliers (tilt: rad) to visit in turn before the push to the end"},
           {"pattern", "list", "", "pushover: forces at the multiplier 1 (default: g times the mass of each block, along direction)",
            -unbounded, unbounded, false, "", "", keys_of<PatternForce>()},
@@ -32,6 +35,7 @@ void read_push(Call& call, Arguments& arguments) {
   static const Keys pattern = keys_of<PatternForce>(), monitor = monitor_keys();
   const Frame& frame = call.context.frame();
   PushSettings& push = call.context.scene.push;
+  const bool first = push.place.line == 0;
   push.place = call.place;
   arguments.read(push);
   static const Keys own = joined({keys_of<PushSettings>(), push_keys()});
@@ -39,13 +43,20 @@ void read_push(Call& call, Arguments& arguments) {
     if (!push.quasi_static() && key.name != "kind" && arguments.has(key.name))
       arguments.mistake(fmt::format("\"{}\" belongs to a push; add kind = \"tilt\" or \"pushover\", or remove it", key.name));
   arguments.direction("direction", push.direction);
-  push.direction = frame.vector(push.direction);
+  if (first || arguments.has("direction")) push.direction = frame.vector(push.direction);
+  call.context.own_direction = call.context.own_direction || arguments.has("direction");
   arguments.read("path", push.path);
+  if (arguments.has("pattern")) push.pattern.clear();
   for (Arguments& one : arguments.tables("pattern", pattern)) {
     PatternForce& force = push.pattern.emplace_back();
     one.read(force);
     force.force = frame.vector(force.force);
   }
+  Vec3 resultant = Vec3::Zero();
+  double all = 0;
+  for (const PatternForce& force : push.pattern) resultant += force.force, all += force.force.norm();
+  // The curve is that of the displacement along the push. Forces that cancel may push to any side.
+  if (!call.context.own_direction && std::isfinite(all) && resultant.norm() > 1e-6 * all) push.direction = resultant.normalized();
   if (auto one = arguments.table("monitor", monitor)) {
     one->read(push.monitor);
     push.monitor.has_point = one->has("point");

@@ -104,6 +104,7 @@ struct Context {
   std::string quality;               // from the command line, otherwise from analysis{}; "": neither gives one
   bool quality_set = false;          // the command line gives the quality
   bool own_step = false;             // analysis{} gives dt or dt_fraction
+  bool own_direction = false;        // analysis{} gives the direction of a push
   std::vector<size_t> plain_rules;   // joint rules that give neither rule nor points
   std::vector<std::string> output;   // what the script printed
   size_t printed = 0;                // bytes of `output`

@@ -142,12 +142,12 @@ void Relaxation::take_machine(const Freedom& freedom) {
   const Vec3 start = monitor_.displacement(pose);
   pose.u[z(b)] += small * elastic.motion.segment<3>(i);
   pose.q[z(b)] = rotation(small * Vec3(elastic.motion.segment<3>(i + 3))) * Quat(pose.q[z(b)]);
-  const double moved = monitor_.along(pose) - before;
-  if (moved <= least_along * (monitor_.displacement(pose) - start).norm())
+  const double moved = monitor_.along(pose) - before, least = least_along * (monitor_.displacement(pose) - start).norm();
+  if (moved <= least)
     throw Error(
         fmt::format("analysis: control = \"displacement\": the push moves the monitored point of block \"{}\" {}; turn direction to the "
                     "side that it pushes to, or take another point with monitor",
-                    model_.block_name[z(b)], moved < 0 ? "against its direction" : "in no way along its direction"),
+                    model_.block_name[z(b)], moved < -least ? "against its direction" : "in no way along its direction"),
         push_.place);
   elastic_slope_ = small / moved;
   loaded_rate_ = elastic.frequency * elastic.frequency;

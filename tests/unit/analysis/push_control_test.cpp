@@ -198,13 +198,34 @@ TEST_CASE("control by displacement names the mechanism past the peak, and leaves
 TEST_CASE("a push that no machine can control is refused with the remedy", "[push][bad-input]") {
   const std::string block = stone +
                             "box{ name = 'b', size = {.4, .4, 1}, at = {-.2, -.2, 0} } joint{ law = dry{ kn = 1e10, mu = .6 } } "
-                            "analysis{ kind = 'pushover', control = 'displacement', displacement = .01, ";
+                            "analysis{ kind = 'pushover', direction = 'x', control = 'displacement', displacement = .01, ";
   for (const auto& [push_by, said] :
        {std::pair{"pattern = { { block = 'b', force = {-1e3, 0, 0} } } }", "against its direction; turn direction"},
         {"pattern = { { block = 'b', force = {0, 1e3, 0} } } }", "in no way along its direction"}}) {
     const test::Scratch dir("push_backwards");
     CHECK_THROWS_WITH(push(block + push_by, dir.path), Catch::Contains(said));
   }
+}
+
+TEST_CASE("a push by forces has its curve along their resultant, unless the scene gives a direction", "[push]") {
+  const auto pushed = [](const std::string& analyses) {
+    const test::Scratch dir("push_resultant");
+    return push(stone +
+                    "for i = 0, 1 do box{ name = 'b' .. i, group = 'col', size = {.4, .4, .5}, at = {-.2, -.2, .5 * i} } end "
+                    "joint{ law = dry{ kn = 1e10, mu = .6 } } " +
+                    analyses + " analysis{ limit = 'never', step = .05, up_to = .1 }",
+                dir.path)
+        .metrics.capacity->peak;
+  };
+  const std::string forces = "pattern = { { group = 'col', force = {0, -3e3, 0} }, { block = 'b1', force = {-4e3, 0, 0} } } }";
+  const CurvePoint along = pushed("analysis{ kind = 'pushover', " + forces);
+  CHECK(along.base_shear == Approx(500).epsilon(1e-3));
+  CHECK(along.displacement > 1e-7);
+  CHECK(pushed("analysis{ kind = 'pushover', direction = '-x', " + forces).base_shear == Approx(400).epsilon(1e-3));
+  CHECK(pushed("analysis{ kind = 'pushover', direction = '-x' } analysis{ " + forces).base_shear == Approx(400).epsilon(1e-3));
+  // The last pattern counts.
+  CHECK(pushed("analysis{ kind = 'pushover', " + forces + " analysis{ pattern = { { block = 'b0', force = {0, 0, -2e3} } } }").base_shear ==
+        Approx(200).epsilon(1e-3));
 }
 
 TEST_CASE("the base shear of a push in any direction is what the push adds, without the weight", "[push]") {
