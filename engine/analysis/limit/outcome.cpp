@@ -66,7 +66,8 @@ std::string names(const Model& m, const Mechanism& joints, Movement kind, const 
     text += (n == 1 ? "" : ", ") + m.joint_name(moved.joint);
   }
   if (n == 0) return "";
-  return fmt::format("; {} joint{} {}: {}{}", n, n == 1 ? "" : "s", verb, text, n > shown ? ", ..." : "");
+  return fmt::format("; {} joint{}: {}{}", n, n == 1 ? fmt::format(" {}s", verb) : fmt::format("s {}", verb), text,
+                     n > shown ? ", ..." : "");
 }
 
 std::string kind_of(const LimitResult& r, const Model& m, const LimitMechanism& found) {
@@ -166,9 +167,9 @@ LimitMechanism limit_mechanism(const LimitResult& r, const Model& m) {
   }
   if (momentum.norm() > 0.1 * size && size > 0) out.drift = momentum.normalized();
   out.kind = kind_of(r, m, out);
-  out.words =
-      fmt::format("{}: {} of {} blocks move{}{}{}", out.kind, out.moving, r.problem.nbody, names(m, out.joints, Movement::hinge, "open"),
-                  names(m, out.joints, Movement::slide, "slide"), names(m, out.joints, Movement::part, "part"));
+  out.words = fmt::format("{}: {} of {} block{} move{}{}{}{}", out.kind, out.moving, r.problem.nbody, r.problem.nbody == 1 ? "" : "s",
+                          out.moving == 1 ? "s" : "", names(m, out.joints, Movement::hinge, "open"),
+                          names(m, out.joints, Movement::slide, "slide"), names(m, out.joints, Movement::part, "part"));
   return out;
 }
 
