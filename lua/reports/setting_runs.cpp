@@ -10,6 +10,7 @@
 #include "engine/record/folder/manifest.h"
 #include "engine/record/format/csv.h"
 #include "engine/study/machine.h"
+#include "engine/study/sweep/study_folder.h"
 #include "lua/program/sweep_printer.h"
 
 namespace erbs::lua {
@@ -79,8 +80,11 @@ void prepare_settings_folder(const std::string& directory, bool resume, bool for
   if (there && !force && !resume)
     throw Error(fmt::format("{} exists; write --resume to keep its runs, or --force to make them again", directory));
   if (there && force) {
-    for (const char* file : {study::results_file, study::runs_file, "runs", "work"}) fs::remove_all(in(directory, file));
-    for (const std::string& file : products) fs::remove_all(in(directory, file));
+    if (!study::holds_tables(directory))
+      throw Error(fmt::format("\"{}\" holds no results of such runs and is left alone, --force or not; choose another folder with -o DIR",
+                              directory));
+    study::remove_tables(directory);
+    for (const std::string& file : products) fs::remove(in(directory, file));
   }
   fs::create_directories(directory);
 }

@@ -15,6 +15,7 @@
 #include "engine/study/machine.h"
 #include "engine/study/sweep/claims.h"
 #include "engine/study/sweep/ranks.h"
+#include "engine/study/sweep/study_folder.h"
 #include "engine/study/sweep/sweep_figure.h"
 #include "lua/commands/sweep/sweep_study.h"
 #include "lua/program/child.h"
@@ -27,12 +28,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* files_of_sweep[] = {study::results_file, study::runs_file, identity_file, "runs", "work", "job.sh", "job_logs"};
+constexpr const char* files_of_sweep[] = {identity_file, "job.sh", "job_logs"};  // besides its tables and runs
 
 std::string in(const std::string& directory, const char* file) { return directory + "/" + file; }
 
 bool is_sweep_folder(const std::string& directory) {
-  return fs::exists(in(directory, identity_file)) || fs::exists(in(directory, study::results_file));
+  if (study::holds_tables(directory)) return true;
+  try {
+    return read_json(in(directory, identity_file)).contains("key");
+  } catch (const std::exception&) { return false; }  // missing, or of another program
 }
 
 bool is_figure(const fs::path& file) {
@@ -40,6 +44,7 @@ bool is_figure(const fs::path& file) {
 }
 
 void remove_sweep(const std::string& directory) {
+  study::remove_tables(directory);
   for (const char* file : files_of_sweep) fs::remove_all(in(directory, file));
   for (const char* file : study::fragility_files) fs::remove_all(in(directory, file));
   std::vector<fs::path> figures;

@@ -58,3 +58,28 @@ TEST_CASE("a run of effects that fails is a row with its reason, and the scene i
   CHECK(bench.erbs({"effects", bench.scene(damped_pier()), "-o", bench.out(), "--force", "--max-wall", "1ms", "-j", "2"}) == 2);
   CHECK(contains(bench.said, "took longer than max_wall"));
 }
+
+TEST_CASE("--force leaves alone what no study has written", "[program][sweep]") {
+  Bench bench;
+  const std::string scene = bench.scene(damped_pier() + "metric('one', '', 1) param('a', 1)\n");
+  bench.write("study.lua", "study{ scene = 'scene.lua', vary = { grid{ a = { 1, 2 } } }, collect = { 'time_s' } }");
+  std::filesystem::create_directories(bench.out() + "/runs/house");
+  std::filesystem::create_directories(bench.out() + "/work");
+  const std::vector<std::string> foreign{"runs/house/metrics.json", "runs/notes.txt", "work/draft.txt", "results.csv", "study.json"};
+  for (const std::string& file : foreign) bench.write("out/" + file, "of the user\n");
+  for (const std::string& verb : {std::string("effects"), std::string("accuracy")}) {
+    CHECK(bench.erbs({verb, scene, "-o", bench.out(), "--force"}) == 2);
+    INFO(bench.said);
+    CHECK(contains(bench.said, "holds no results of such runs and is left alone"));
+  }
+  CHECK(bench.erbs({"sweep", (bench.folder / "study.lua").string(), "-o", bench.out(), "--force"}) == 2);
+  CHECK(contains(bench.said, "is no folder of a sweep"));
+  for (const std::string& file : foreign) CHECK(text_of(bench.out() + "/" + file) == "of the user\n");
+  // Beside results of a study only its own runs go.
+  bench.write("out/results.csv", "index,setting,runs,status,reason,study\n");
+  bench.write("out/runs/000003_01.log", "of a run\n");
+  CHECK(bench.erbs({"effects", scene, "-o", bench.out(), "--force", "-q"}) == 0);
+  CHECK_FALSE(std::filesystem::exists(bench.out() + "/runs/000003_01.log"));
+  for (const char* file : {"runs/house/metrics.json", "runs/notes.txt", "work/draft.txt"})
+    CHECK(text_of(bench.out() + "/" + file) == "of the user\n");
+}
