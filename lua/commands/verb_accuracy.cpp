@@ -8,14 +8,11 @@
 #include "lua/program/say.h"
 #include "lua/reports/accuracy/tables.h"
 #include "lua/reports/book.h"
-#include "lua/reports/setting_runs.h"
 
 namespace erbs::lua {
 namespace {
 
 namespace fs = std::filesystem;
-
-const std::vector<std::string> products{"accuracy.csv", "accuracy.svg", "accuracy.png"};
 
 // Answers --target and --budget: the setting, and the line to write into the scene.
 int answer(const AccuracyStudy& s, const AccuracyCommand& command) {
@@ -68,7 +65,6 @@ int whole_study(const AccuracyCommand& command) {
   const std::string folder = command.words.empty() ? "scenes/accuracy" : command.words.front();
   const std::vector<std::string> scenes = problems_of(folder);
   const std::string out = command.output.directory.empty() ? "runs/accuracy" : command.output.directory;
-  prepare_settings_folder(out, command.batch.resume, command.output.force, products);
   AccuracyResult result = carry_out_accuracy(scenes, out, command);
   std::vector<AccuracyStudy>& all = result.studies;
   write_accuracy_csv(all, run_file(out, "accuracy.csv"));
@@ -96,7 +92,6 @@ int verb_accuracy(const AccuracyCommand& command) {
   if (!fs::is_regular_file(scene)) throw Error(fmt::format("there is no scene {}; check the path", scene));
   const std::string directory =
       command.output.directory.empty() ? "runs/accuracy_" + fs::path(scene).stem().string() : command.output.directory;
-  prepare_settings_folder(directory, command.batch.resume, command.output.force, products);
   const AccuracyResult result = carry_out_accuracy({scene}, directory, command);
   const AccuracyStudy& s = result.studies.front();
   print_settings(s);

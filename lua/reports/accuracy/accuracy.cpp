@@ -166,6 +166,8 @@ AccuracyResult carry_out_accuracy(const std::vector<std::string>& scenes, const 
   std::vector<Asked> asked;
   for (const std::string& scene : scenes) asked.push_back(ask(scene, command));
   const SettingRuns runs = runs_of(asked, directory, command);
+  // A mistake in a scene or an option has been told by now, so that --force loses no earlier results to it.
+  prepare_settings_folder(directory, command.batch.resume, command.output.force, {"accuracy.csv", "accuracy.svg", "accuracy.png"});
   const auto begin = std::chrono::steady_clock::now();
   const std::vector<SettingRow> rows = run_settings(runs);
   AccuracyResult result;

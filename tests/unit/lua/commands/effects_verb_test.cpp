@@ -83,3 +83,19 @@ TEST_CASE("--force leaves alone what no study has written", "[program][sweep]") 
   for (const char* file : {"runs/house/metrics.json", "runs/notes.txt", "work/draft.txt"})
     CHECK(text_of(bench.out() + "/" + file) == "of the user\n");
 }
+
+TEST_CASE("a mistake in a scene or an option costs no earlier results, --force or not", "[program]") {
+  Bench bench;
+  const std::string scene = bench.scene(damped_pier() + "metric('one', '', 1)\n");
+  REQUIRE(bench.erbs({"accuracy", scene, "-o", bench.out(), "--knob", "time step", "-q"}) == 0);
+  const std::string before = text_of(bench.out() + "/results.csv");
+  for (const std::vector<std::string>& more : {std::vector<std::string>{"--knob", "tme step"}, {"--quantity", "two"}, {"-D", "x=1"}}) {
+    std::vector<std::string> words{"accuracy", scene, "-o", bench.out(), "--force"};
+    words.insert(words.end(), more.begin(), more.end());
+    CHECK(bench.erbs(words) == 2);
+    CHECK(text_of(bench.out() + "/results.csv") == before);
+  }
+  bench.scene("x =");
+  CHECK(bench.erbs({"accuracy", scene, "-o", bench.out(), "--force"}) == 2);
+  CHECK(text_of(bench.out() + "/results.csv") == before);
+}
