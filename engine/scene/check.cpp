@@ -2,7 +2,6 @@
 #include <cctype>
 #include <cmath>
 #include <map>
-#include <numbers>
 #include <set>
 #include <tuple>
 #include <unordered_map>
@@ -11,6 +10,7 @@
 #include "engine/geometry/separation.h"
 #include "engine/laws/laws.h"
 #include "engine/scene/effects.h"
+#include "engine/scene/load_size.h"
 #include "engine/scene/scene.h"
 
 namespace erbs {
@@ -189,16 +189,6 @@ const Block* named(Report& report, const Index& index, const std::string& name, 
   return nullptr;
 }
 
-// More than a turn is an angle in degrees, taken for radians.
-void check_tilt(Report& report, const Load& load, double duration) {
-  constexpr int samples = 1000;
-  double most = 0;
-  for (int i = 0; i <= samples; ++i) most = std::max(most, std::fabs(value(load.wave, duration * i / samples)));
-  if (const double turns = most / (2 * std::numbers::pi); turns > 1)
-    report.say(load.place, "tilt: its wave reaches {:.4g} rad, {:.3g} turns; angles are in radians: {:.4g} degrees are {:.4g} * deg", most,
-               turns, most, most);
-}
-
 void check_loads(Report& report, const Scene& scene, const Index& index) {
   using Kind = Load::Kind;
   std::set<std::string> driven;
@@ -207,12 +197,9 @@ void check_loads(Report& report, const Scene& scene, const Index& index) {
   for (const Load& load : scene.loads) {
     if (!(std::abs(load.direction.norm() - 1) < 1e-6))
       report.say(load.place, "load \"{}\": its direction has no length; give a vector", load.name);
-    if (load.kind == Kind::tilt) check_tilt(report, load, scene.analysis.duration);
+    if (const std::string size = load_size_mistake(load, scene.analysis.duration); !size.empty()) report.say(load.place, "{}", size);
     if (load.kind == Kind::ground || load.kind == Kind::tilt) continue;
-    const char* who = load.kind == Kind::force     ? "force"
-                      : load.kind == Kind::moment  ? "moment"
-                      : load.kind == Kind::turning ? "turning"
-                                                   : "motion";
+    const char* who = load_word(load.kind);
     const Block* block = named(report, index, load.block, load.place, who);
     if (block && block->fixed && load.kind != Kind::motion && load.kind != Kind::turning)
       report.say(load.place, "{}: block \"{}\" is fixed and feels none; name a free block", who, load.block);

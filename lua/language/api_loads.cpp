@@ -122,8 +122,8 @@ int gravity(Call& call) {
   before = call.place;
   if (lua_type(call.lua, 1) == LUA_TNUMBER) {
     const double g = lua_tonumber(call.lua, 1);
-    if (!(g >= 0 && g <= 1000)) call.mistake(fmt::format("{} m/s2 is out of range; allowed is 0 to 1000 m/s2 (downwards)", written(g)));
-    scene.gravity = call.context.frame().vector({0, 0, -g});
+    if (g >= 0 && g <= 1000) scene.gravity = call.context.frame().vector({0, 0, -g});
+    else call.mistake(fmt::format("{} m/s2 is out of range; allowed is 0 to 1000 m/s2 (downwards)", written(g)));
     return 0;
   }
   if (!lua_istable(call.lua, 1))
