@@ -160,6 +160,7 @@ void call_script(lua_State* lua, Context& context, int arguments, int results) {
   lua_pushcfunction(lua, place_error);
   lua_insert(lua, function);
   int status = LUA_OK;
+  context.limits.refused = {context.scene.file, 0};
   {
     const Cap capped(context.limits, true);
     status = lua_pcall(lua, arguments, results, function);
@@ -177,7 +178,7 @@ void call_script(lua_State* lua, Context& context, int arguments, int results) {
   lua_pop(lua, 1);
   if (status == LUA_ERRMEM)
     message = fmt::format("{}: the script needs more than {} MiB of memory; is a table or a string growing without end?",
-                          context.scene.file, context.limits.bytes >> 20);
+                          context.limits.refused.text(), context.limits.bytes >> 20);
   throw Error(message);
 }
 

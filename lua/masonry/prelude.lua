@@ -19,30 +19,31 @@ end
 function xpcall(f, handler, ...) return finished(handler, pcall(f, ...)) end
 
 -- Lua's own order of string keys differs from run to run, but a scene must be built the same way every time. Here numbers come first
--- in rising order, then strings in alphabetical order, then the other keys in Lua's order.
-local raw_next, sort, type, getmetatable = next, table.sort, type, getmetatable
+-- in rising order, then strings in alphabetical order, then false and true, then the other keys in Lua's order.
+local raw_next, rawget, sort, type, getmetatable, error = next, rawget, table.sort, type, getmetatable, error
+local rank = { number = 1, string = 2, boolean = 3 }
 
 local function before(a, b)
-  local x, y = type(a), type(b)
-  if x ~= y then return x == "number" or (x == "string" and y ~= "number") end
-  return a < b
+  local x, y = rank[type(a)] or 4, rank[type(b)] or 4
+  if x ~= y then return x < y end
+  if x == 3 then return b and not a end
+  return x < 3 and a < b
+end
+
+local function sorted_keys(container)
+  local keys, n = {}, 0
+  for key in raw_next, container do
+    n = n + 1
+    keys[n] = key
+  end
+  sort(keys, before)
+  return keys
 end
 
 function pairs(container)
   local meta = getmetatable(container)
   if type(meta) == "table" and meta.__pairs then return meta.__pairs(container) end
-  local keys, rest, n, last = {}, {}, 0, nil
-  for key in raw_next, container do
-    if type(key) == "number" or type(key) == "string" then
-      n = n + 1
-      keys[n] = key
-    else
-      rest[#rest + 1] = key
-    end
-  end
-  sort(keys, before)
-  for i = 1, #rest do keys[n + i] = rest[i] end
-  local i = 0
+  local keys, i, last = sorted_keys(container), 0, nil
   return function()
     while true do
       i = i + 1
@@ -52,4 +53,37 @@ function pairs(container)
       if value ~= nil then return last, value end
     end
   end, container, nil
+end
+
+-- The order of a table is kept while next goes through it. Its first key alone needs no sorting, so that next(t) may ask whether t is
+-- empty.
+local orders = setmetatable({}, { __mode = "k" })
+
+local function order_of(container, key)
+  local order = orders[container]
+  if order and order.place[key] then return order end
+  order = { keys = sorted_keys(container), place = {} }
+  for i = 1, #order.keys do order.place[order.keys[i]] = i end
+  if not order.place[key] then error("next: this key is not in the table", 3) end
+  orders[container] = order
+  return order
+end
+
+function next(container, key)
+  if key == nil then
+    local first = raw_next(container)
+    for other in raw_next, container do
+      if before(other, first) then first = other end
+    end
+    orders[container] = nil
+    if first == nil then return nil end
+    return first, rawget(container, first)
+  end
+  local order = order_of(container, key)
+  for i = order.place[key] + 1, #order.keys do
+    local value = rawget(container, order.keys[i])
+    if value ~= nil then return order.keys[i], value end
+  end
+  orders[container] = nil
+  return nil
 end

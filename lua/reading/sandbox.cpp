@@ -27,7 +27,10 @@ void* allocate(void* limits_, void* block, size_t old_size, size_t new_size) {
     limits.used -= had;
     return nullptr;
   }
-  if (limits.capped && new_size > had && limits.used + (new_size - had) > limits.bytes) return nullptr;
+  if (limits.capped && new_size > had && limits.used + (new_size - had) > limits.bytes) {
+    if (limits.lua) limits.refused = current_place(limits.lua);
+    return nullptr;
+  }
   void* moved = std::realloc(block, new_size);
   if (moved) limits.used += new_size - had;
   return moved;
@@ -90,13 +93,54 @@ int safe_randomseed(lua_State* lua) {
   return 0;
 }
 
+// Pushes a value as text. Of a table or a function that is its type alone: addresses differ from run to run, but the same scene must
+// give the same run.
+void push_text(lua_State* lua, int index) {
+  const int type = lua_type(lua, index);
+  if (type == LUA_TNIL || type == LUA_TBOOLEAN || type == LUA_TNUMBER || type == LUA_TSTRING) {
+    luaL_tolstring(lua, index, nullptr);
+  } else if (luaL_getmetafield(lua, index, "__tostring") != LUA_TNIL) {
+    lua_pop(lua, 1);
+    luaL_tolstring(lua, index, nullptr);
+  } else lua_pushstring(lua, lua_typename(lua, type));
+}
+
+int safe_tostring(lua_State* lua) {
+  luaL_checkany(lua, 1);
+  push_text(lua, 1);
+  return 1;
+}
+
+// string.format whose %s gives no address either. %p would give nothing else.
+int safe_format(lua_State* lua) {
+  size_t length = 0;
+  const char* at = luaL_checklstring(lua, 1, &length);
+  const char* const end = at + length;
+  for (int argument = 1; at < end; ++at) {
+    if (*at != '%') continue;
+    do ++at;
+    while (at < end && *at != '\0' && std::strchr("-+ #0123456789.", *at) != nullptr);
+    if (at == end || *at == '%') continue;
+    ++argument;
+    if (*at == 'p') return luaL_error(lua, "%%p is not available in scenes, since addresses differ from run to run");
+    if (*at == 's' && argument <= lua_gettop(lua)) {
+      push_text(lua, argument);
+      lua_replace(lua, argument);
+    }
+  }
+  lua_pushvalue(lua, lua_upvalueindex(1));
+  lua_insert(lua, 1);
+  lua_call(lua, lua_gettop(lua) - 1, 1);
+  return 1;
+}
+
 int print(lua_State* lua) {
   const int n = lua_gettop(lua);
   luaL_Buffer line;
   luaL_buffinit(lua, &line);
   for (int i = 1; i <= n; ++i) {
     if (i > 1) luaL_addchar(&line, '\t');
-    luaL_tolstring(lua, i, nullptr);
+    push_text(lua, i);
     luaL_addvalue(&line);
   }
   luaL_pushresult(&line);
@@ -142,6 +186,9 @@ void open_libraries(lua_State* lua) {
   for (const char* name : {"concat", "move", "sort", "unpack"}) wrap(lua, LUA_TABLIBNAME, name, noted);
   wrap(lua, LUA_GNAME, "setmetatable", safe_setmetatable);
   wrap(lua, LUA_MATHLIBNAME, "randomseed", safe_randomseed);
+  wrap(lua, LUA_STRLIBNAME, "format", safe_format);
+  lua_pushcfunction(lua, safe_tostring);
+  lua_setglobal(lua, "tostring");
   lua_pushcfunction(lua, print);
   lua_setglobal(lua, "print");
   lua_getglobal(lua, LUA_MATHLIBNAME);
@@ -169,6 +216,7 @@ lua_State* open_sandbox(Context& context) {
     return 0;
   });
   open_libraries(lua);
+  context.limits.lua = lua;
   return lua;
 }
 

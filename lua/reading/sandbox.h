@@ -8,6 +8,8 @@
 #include <thread>
 #include <utility>
 
+#include "engine/base/error.h"
+
 struct lua_State;
 
 namespace erbs::lua {
@@ -20,6 +22,8 @@ struct Limits {
   size_t all_bytes = size_t{2} << 30;  // with the memory of the scene outside Lua: blocks, waves
   // State of the limits
   size_t used = 0;
+  lua_State* lua = nullptr;
+  Place refused;        // line whose last demand for memory was refused
   bool capped = true;   // off while C++ objects are alive, so that no memory error of Lua jumps over their destructors
   double deadline = 0;  // s, processor time of this process
   std::atomic<bool> expired = false;

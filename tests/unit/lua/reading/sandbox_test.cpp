@@ -79,6 +79,8 @@ TEST_CASE("memory is capped", "[lua][sandbox]") {
     const auto mistakes = mistakes_of(bomb, {}, quiet(10, size_t{32} << 20));
     CHECK((mentions(mistakes, "MiB of memory") || mentions(mistakes, "too large") || mentions(mistakes, "not enough memory")));
   }
+  CHECK(mentions(mistakes_of("local t = {}\nfor i = 1, math.huge do\n t[i] = { i }\nend", {}, quiet(10, size_t{32} << 20)),
+                 "scene.lua:3: the script needs more than 32 MiB of memory"));
 }
 
 TEST_CASE("what reaches outside is not there", "[lua][sandbox]") {
@@ -96,6 +98,42 @@ TEST_CASE("the language cannot be changed from a scene", "[lua][sandbox]") {
   CHECK(mentions(mistakes_in("box = nil"), "is a name of the language"));
   CHECK(mentions(mistakes_in("_G.box = print"), "is a name of the language"));
   CHECK(mentions(mistakes_in("setmetatable(_G, {})"), "protected metatable"));
+}
+
+TEST_CASE("next goes through a table in the order of pairs", "[lua][sandbox]") {
+  const std::string begin = R"(
+local t = {} for i = 1, 40 do t["k" .. i] = i end
+t[3], t[1], t[2.5], t[true], t[false] = 1, 2, 3, 4, 5
+local ordered = {} for k in pairs(t) do ordered[#ordered + 1] = k end
+)";
+  for (const char* claim : {
+           "local i = 0 for k, v in next, t do i = i + 1 assert(k == ordered[i] and v == t[k]) end assert(i == 45)",
+           "local i = 0 for k in next, t do i = i + 1 assert(k == ordered[i]) t[k] = nil end assert(i == 45 and next(t) == nil)",
+           "local i = 0 for a in next, t do i = i + 1 for b in next, t do assert(b ~= nil) end assert(a == ordered[i]) end assert(i == 45)",
+           "local i, k = 0, next(t) while k ~= nil do i = i + 1 assert(k == ordered[i]) t[k] = nil k = next(t) end assert(i == 45)",
+           "assert(next({}) == nil and next({ 7 }) == 1 and select(2, next({ 7 })) == 7)",
+       }) {
+    INFO(claim);
+    CHECK(mistakes_in(begin + claim).empty());
+  }
+  CHECK(mentions(mistakes_in("next({ 1 }, 'x')"), "scene.lua:6: next: this key is not in the table"));
+}
+
+TEST_CASE("no text of a script holds an address", "[lua][sandbox]") {
+  const std::string begin = "local t, f = {}, function() end local named = setmetatable({}, { __tostring = function() return 'me' end })\n";
+  for (const char* claim : {
+           "assert(tostring(t) == 'table' and tostring(f) == 'function' and tostring(print) == 'function' and tostring(named) == 'me')",
+           "assert(tostring(nil) == 'nil' and tostring(.5) == '0.5' and tostring('a') == 'a' and tostring(true) == 'true')",
+           "assert(string.format('%s|%5s|%-3s|%%|%d', t, 'a', named, 3) == 'table|    a|me |%|3')",
+           "assert(('%s %q %.2f %s'):format(f, 'x', 1.5, nil) == 'function \"x\" 1.50 nil')",
+           "assert(not tostring(dry{ kn = 1e9, mu = .6 }):find('0x'))",
+       }) {
+    INFO(claim);
+    CHECK(mistakes_in(begin + claim).empty());
+  }
+  CHECK(mentions(mistakes_in("string.format('%p', {})"), "%p is not available in scenes"));
+  CHECK(mentions(mistakes_in("string.format('%d', {})"), "number expected, got table"));
+  CHECK(mentions(mistakes_in("string.format('%s')"), "bad argument #2 to 'format' (no value)"));
 }
 
 TEST_CASE("include stays inside the scene's folder", "[lua][sandbox]") {
