@@ -29,6 +29,16 @@ void refuse_beside(const RunCommand& wish) {
                   text));
 }
 
+// The manifest, which says where the scene is and with which options it runs. `line` resumes the run without it.
+Manifest kept_manifest(const std::string& folder, const std::string& line) {
+  std::string why = "does not say where the scene is";
+  try {
+    Manifest manifest = read_manifest(folder);
+    if (!manifest.scene_path.empty()) return manifest;
+  } catch (const Error&) { why = "is missing or damaged"; }
+  throw Error(fmt::format("the manifest.json in {} {}; name the scene, with the options of the run: {}", shown(folder), why, line));
+}
+
 }  // namespace
 
 std::vector<std::string> kept_arguments(const RunCommand& command) {
@@ -50,10 +60,7 @@ RunCommand with_kept_arguments(const RunCommand& wish) {
     throw Error(fmt::format("{} is the folder of a run, not a scene; to go on with that run: {}", shown(folder), resume_line(folder)));
   refuse_beside(wish);
   const std::string line = fmt::format("erbs run SCENE.lua -o {} --resume", shell_word(folder));
-  const Manifest manifest = read_manifest(folder);
-  if (manifest.scene_path.empty())
-    throw Error(fmt::format("the manifest.json in {} does not say where the scene is; name it, with the options of the run: {}",
-                            shown(folder), line));
+  const Manifest manifest = kept_manifest(folder, line);
   std::vector<std::string> words{"run", manifest.scene_path, "-o", folder};
   for (const auto& kept : {manifest.arguments, manifest.override_arguments}) words.insert(words.end(), kept.begin(), kept.end());
   if (!fs::exists(manifest.scene_path, ignored)) {

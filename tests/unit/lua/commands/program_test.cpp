@@ -123,6 +123,14 @@ TEST_CASE("what a run folder says of its run cannot be said again, and a scene t
     CHECK(contains(bench.said, more.front()));
     CHECK(contains(bench.said, "a run that is resumed by its folder keeps its scene, options and folder"));
   }
+  const std::string manifest = text_of(bench.out() + "/manifest.json");
+  for (const std::string& damaged : {manifest.substr(0, manifest.size() / 2), std::string("[1]"), std::string("{}")}) {
+    bench.write("out/manifest.json", damaged);
+    CHECK(bench.erbs({"run", bench.out(), "--resume"}) == 2);
+    INFO(bench.said);
+    CHECK(contains(bench.said, "name the scene, with the options of the run: erbs run SCENE.lua -o " + bench.out() + " --resume"));
+  }
+  bench.write("out/manifest.json", manifest);
   fs::rename(bench.folder / "scene.lua", bench.folder / "moved.lua");
   CHECK(bench.erbs({"run", bench.out(), "--resume"}) == 2);
   CHECK(contains(bench.said, "the scene " + (bench.folder / "scene.lua").string() + " of the run in "));
