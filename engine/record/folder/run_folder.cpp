@@ -46,6 +46,16 @@ void remove_from(const fs::path& folder, const Own& own) {
   fs::remove(folder, in_use);
 }
 
+// A run that was killed while it wrote a file has left part of it beside the whole one.
+void remove_unfinished(const std::string& dir, const std::string& scene) {
+  std::error_code ignored;
+  for (const auto& entry : fs::directory_iterator(dir)) {
+    const std::string name = entry.path().filename().string();
+    for (const std::string_view ending : own_endings)
+      if (ends_in(name, ending) && is_own(name.substr(0, name.size() - ending.size()), scene)) fs::remove(entry.path(), ignored);
+  }
+}
+
 // The manifest stays: it identifies the run folder until a new one is written.
 void remove_former_run(const std::string& dir, const std::string& scene) {
   for (const auto& entry : fs::directory_iterator(dir))
@@ -138,6 +148,7 @@ void create_run_folder(const std::string& dir, Existing existing, const std::str
     if (own.has_parent_path()) fs::create_directories(own.parent_path());
     made = fs::create_directory(own);
     if (!made && existing == Existing::refuse) check_run_folder(dir, existing);  // a run started at the same time has created it
+    if (existing == Existing::resume) remove_unfinished(dir, scene_of_films(dir, manifest));
     write_manifest(dir, manifest);
     if (existing != Existing::resume) write_text_atomically(run_file(dir, "scene.lua"), script);
   } catch (const std::exception& trouble) {

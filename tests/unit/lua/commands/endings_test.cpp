@@ -225,7 +225,11 @@ TEST_CASE("a run goes on from any folder, and beside a manifest that is damaged"
     bench.write("out/manifest.json", manifest);
     CHECK(from("z", "../scene.lua -o ../out --until 0.2") == 3);
   }
+  bench.write("out/checkpoint.bin.tmp", "half");
+  bench.write("out/notes.tmp", "of the user");
   CHECK(from("", scene + " -o out") == 0);
+  CHECK_FALSE(fs::exists(bench.out() + "/checkpoint.bin.tmp"));
+  CHECK(fs::exists(bench.out() + "/notes.tmp"));
 }
 
 TEST_CASE("a run of a study that was killed is made again by --resume", "[endings]") {
