@@ -242,6 +242,8 @@ const Scene& Script::load(const std::string& path, const Overrides& overrides) {
   std::error_code ignored;
   if (std::filesystem::is_directory(path, ignored)) throw Error(fmt::format("{} is a folder; name the scene file in it", path));
   if (!std::filesystem::exists(path, ignored)) throw Error(fmt::format("there is no scene {}; check the path", path));
+  if (std::filesystem::is_character_file(path, ignored) || std::filesystem::is_block_file(path, ignored))
+    throw Error(fmt::format("{} is a device, not a scene; name a Lua script", path));  // some never end
   const std::string text = read_input(*context_, path, {});
   run(text, path, overrides);
   return context_->scene;

@@ -87,6 +87,8 @@ RecordText read_record_text(const std::string& path) {
   std::error_code code;
   if (!std::filesystem::exists(path, code)) throw Error("there is no such record file; check the name and the folder", {path});
   if (std::filesystem::is_directory(path, code)) throw Error("is a folder, not a record file; name a file inside", {path});
+  if (std::filesystem::is_character_file(path, code) || std::filesystem::is_block_file(path, code))
+    throw Error("is a device, not a record file; name a file with numbers", {path});  // some never end
   std::ifstream in(path, std::ios::binary);
   if (!in) throw Error("the record file cannot be opened; check its permissions", {path});
   std::string bytes;

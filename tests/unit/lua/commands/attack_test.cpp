@@ -285,6 +285,10 @@ TEST_CASE("texts of editors are read, others refused with a remedy", "[attack]")
   CHECK(contains(bench.said, "check the unit"));
   CHECK(bench.erbs({"record", "/proc/self/mem"}) == 2);
   CHECK(contains(bench.said, "/proc/self/mem: the record file cannot be read; name one with numbers"));
+  for (const char* verb : {"record", "check"}) {
+    CHECK(bench.erbs({verb, "/dev/zero"}) == 2);  // it has no end
+    CHECK(contains(bench.said, "is a device, not a"));
+  }
   bench.write("deep.lua", std::string(100000, '(') + "1" + std::string(100000, ')'));
   CHECK(bench.erbs({"check", "-q", (bench.folder / "deep.lua").string()}) == 2);
   CHECK(contains(bench.said, "deep.lua"));
