@@ -4,11 +4,12 @@ import {momentText, rareEvent, run, short, unpack, withUnit} from './data.js';
 import {Curves, plotOf} from './curves.js';
 import {Motion} from './motion.js';
 import {groundBlocks, materialCss, Replay, scaleCss} from './replay.js';
+import {Table} from './table.js';
 import {make, showTexts, table} from './text.js';
 
 const at = (id) => document.getElementById(id);
 const first = run.times[0], last = run.times.at(-1);
-let time = first, playing = false, motion = null, replay = null, curves = null, blockCurve = null, chosen = -1, before = 0;
+let time = first, playing = false, motion = null, replay = null, curves = null, blockCurve = null, tilting = null, chosen = -1, before = 0;
 
 function setTime(t) {
   time = Math.min(last, Math.max(first, t));
@@ -17,8 +18,9 @@ function setTime(t) {
   curves?.redraw();
   blockCurve?.plot.redraw(false);
   at('scrub').value = time;
-  at('scrub').setAttribute('aria-valuetext', `${momentText(time, 2)} of ${momentText(last, 2)}`);
-  at('clock').textContent = momentText(time);
+  const tilt = tilting ? `, tilt ${((tilting.angle(time) * 180) / Math.PI).toFixed(1)}°` : '';
+  at('scrub').setAttribute('aria-valuetext', `${momentText(time, 2)} of ${momentText(last, 2)}${tilt}`);
+  at('clock').textContent = momentText(time) + tilt;
   showJoints(frame);
 }
 
@@ -154,13 +156,26 @@ function listen() {
   matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => (curves?.show(), choose(chosen)));
 }
 
+// Of a test that tilts: whether the table turns or the camera stays level with it, and an arrow along gravity.
+function listenToTable() {
+  at('table').hidden = at('gravity').hidden = false;
+  at('tilts').addEventListener('change', () => (replay.tilts = at('tilts').checked, setTime(time)));
+  replay.onDraw = () => {
+    const lean = replay.gravityInView();
+    at('gravity').hidden = Number.isNaN(lean);
+    at('gravity').firstElementChild.style.transform = `rotate(${-lean}rad)`;
+  };
+}
+
 async function start() {
   showTexts((t) => (play(false), setTime(t), at('replay').scrollIntoView({block: 'start'})));
   const data = await unpack();
   motion = new Motion(data.poses, data.damage);
+  tilting = Table.of(data.histories);
   fillControls();
   try {
-    replay = new Replay(at('view'), motion, choose);
+    replay = new Replay(at('view'), motion, tilting, choose);
+    if (tilting) listenToTable();
     replay.resize();
     replay.look(at('camera').value);
   } catch (reason) {

@@ -7,7 +7,7 @@ export class Motion {
     this.nblock = run.blocks.length, this.nframe = run.times.length;
     this.jointsOf = run.blocks.map(() => []);
     run.joints.forEach(([a, b], joint) => (this.jointsOf[a].push(joint), this.jointsOf[b].push(joint)));
-    this.now = new Float32Array(7 * this.nblock);
+    this.now = new Float32Array(7 * this.nblock), this.time = run.times[0];
     this.moving = run.blocks.flatMap((block, b) => (block[3] ? [] : [b]));
     this.most = {displacement: 0, speed: 0};
     for (const b of this.moving)
@@ -32,6 +32,7 @@ export class Motion {
 
   // Fills `now` with the poses at time t, between two frames by straight lines and normalised quaternions.
   setTime(t) {
+    this.time = t;
     const f = this.frame(t), g = Math.min(f + 1, this.nframe - 1), {poses, now} = this;
     const share = g > f ? Math.min(1, Math.max(0, (t - run.times[f]) / (run.times[g] - run.times[f]))) : 0;
     for (let b = 0; b < this.nblock; ++b) {

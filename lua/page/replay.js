@@ -4,6 +4,8 @@ import {OrbitControls} from 'three/examples/jsm/controls/OrbitControls.js';
 
 import {run} from './data.js';
 
+const thin = 0.03;  // of the size of the structure: the thickness of a table that tilts
+
 // Colours of a scale from 0 to 1, dark to bright, even in lightness: viridis (van der Walt and Smith 2015).
 const scale = ['#440154', '#3b528b', '#21918c', '#5ec962', '#fde725'].map((hex) => new THREE.Color(hex));
 export const scaleCss = 'linear-gradient(90deg, #440154, #3b528b, #21918c, #5ec962, #fde725)';
@@ -43,11 +45,15 @@ export function groundBlocks() {
 }
 
 export class Replay {
-  constructor(canvas, motion, onPick) {
+  // `table`: the tilting of the run, or null.
+  constructor(canvas, motion, table, onPick) {
     this.canvas = canvas, this.motion = motion, this.colour = 'material', this.chosen = -1, this.wanted = false;
+    this.table = table, this.tilts = table !== null, this.onDraw = () => {};
     this.ground = groundBlocks();
     this.renderer = new THREE.WebGLRenderer({canvas, antialias: true, alpha: true, preserveDrawingBuffer: true});
     this.scene = new THREE.Scene();
+    this.model = new THREE.Group();  // turns with the table
+    this.scene.add(this.model);
     this.camera = new THREE.PerspectiveCamera(35, 1, 0.01, 1000);
     this.camera.up.set(0, 0, 1);
     this.controls = new OrbitControls(this.camera, canvas);
@@ -77,12 +83,12 @@ export class Replay {
       mesh.frustumCulled = false;
       mesh.userData.blocks = blocks;
       blocks.forEach((b, i) => (this.place[b] = {mesh, index: i}));
-      this.scene.add(mesh);
+      this.model.add(mesh);
       return [mesh];
     });
     this.outline = new THREE.LineSegments(new THREE.BufferGeometry(), new THREE.LineBasicMaterial({color: '#ff3fd0', depthTest: false}));
     this.outline.visible = false, this.outline.frustumCulled = false;
-    this.scene.add(this.outline);
+    this.model.add(this.outline);
   }
 
   // What a view shows: the corners of the box of all blocks that move, at rest, and of the box in which nearly all of them end, unless
@@ -103,11 +109,34 @@ export class Replay {
       end.min[x] = Math.max(far.min[x], Math.min(low, Math.max(reach.min[x], ends[out]))) - radius;
       end.max[x] = Math.min(far.max[x], Math.max(high, Math.min(reach.max[x], ends[ends.length - 1 - out]))) + radius;
     }
-    this.seen = [rest, end].flatMap((box) => (box.isEmpty() ? [] : corners(box)));
+    this.size = size, this.foot = rest.getCenter(new THREE.Vector3()).setZ(rest.min.z);
+    this.seen = this.table ? this.#swept(rest, end) : [rest, end].flatMap((box) => (box.isEmpty() ? [] : corners(box)));
     const box = new THREE.Box3().setFromPoints(this.seen);
     this.middle = box.getCenter(new THREE.Vector3());
     this.radius = Math.max(0.05, box.getSize(new THREE.Vector3()).length() / 2);
     this.camera.near = this.radius / 200, this.camera.far = this.radius * 400;
+  }
+
+  // Of a table that tilts: the corners of both boxes and of the table below them as it turns.
+  #swept(rest, end) {
+    const {table, motion} = this, seen = [], last = run.times.at(-1), below = rest.clone();
+    below.min.z = below.max.z = rest.min.z;
+    below.expandByVector(new THREE.Vector3(0.2 * this.size, 0.2 * this.size, 0));
+    const add = (box, t) => box.isEmpty() || seen.push(...corners(box).map((p) => this.#turn(p, t)));
+    for (let f = 0; f < motion.nframe; f += Math.max(1, Math.floor(motion.nframe / 24))) add(rest, run.times[f]), add(below, run.times[f]);
+    for (const box of [rest, below]) add(box, table.steepest);
+    add(end, last), add(below, last);
+    return seen;
+  }
+
+  // A point of the scene where the table at time t has taken it. It turns about the middle of the structure's foot.
+  #turn(p, t) { return p.sub(this.foot).applyQuaternion(this.table.turn(t)).add(this.foot); }
+
+  // Direction of gravity in the picture: rad from straight down, counter-clockwise; NaN along the view.
+  gravityInView() {
+    const down = this.tilts ? new THREE.Vector3(0, 0, -1) : this.table.down(this.motion.time);
+    down.applyQuaternion(this.camera.quaternion.clone().invert());
+    return Math.hypot(down.x, down.y) < 0.2 ? NaN : Math.atan2(down.x, -down.y);
   }
 
   // Places the camera in the direction `way` from all that is to be seen, as near as its angle of view allows.
@@ -140,6 +169,10 @@ export class Replay {
     } else {
       const ways = {front: [0, -1, 0.12], side: [1, 0, 0.12], top: [0, -0.01, 1], 'three quarter': [0.75, -1, 0.55]};
       const way = new THREE.Vector3(...ways[name]).normalize();
+      // From where a table faces when it leans most: from behind its lower side would be seen.
+      const leans = new THREE.Vector3(0, 0, 1).applyQuaternion(this.table?.turn(this.table.steepest) ?? new THREE.Quaternion());
+      if (name === 'three quarter' && way.x * leans.x + way.y * leans.y < 0) way.x *= -1, way.y *= -1;
+      while (this.table && way.dot(leans) < 0.2) way.z += 0.05, way.normalize();  // or from the side, which is raised above it
       camera.up.set(0, 0, 1), camera.fov = 35;
       this.#fit(way);
     }
@@ -180,13 +213,22 @@ export class Replay {
         position.fromArray(now, 7 * b);
         rotation.set(now[7 * b + 4], now[7 * b + 5], now[7 * b + 6], now[7 * b + 3]);
         mesh.setMatrixAt(i, matrix.compose(position, rotation, one));
+        if (this.table && this.ground.has(b)) mesh.setMatrixAt(i, this.#plate(b, matrix));
         mesh.setColorAt(i, this.#color(b, frame, color));
       });
       mesh.instanceMatrix.needsUpdate = mesh.instanceColor.needsUpdate = true;
       mesh.boundingSphere = null;  // the blocks have moved
     }
+    this.model.quaternion.copy(this.tilts ? this.table.turn(this.motion.time) : new THREE.Quaternion());
+    this.model.position.copy(this.foot).sub(this.foot.clone().applyQuaternion(this.model.quaternion));
     this.#placeOutline();
     this.draw();
+  }
+
+  // The ground as a plate: a block of its whole thickness hides, when it tilts, what happens on it.
+  #plate(block, out) {
+    const {min, max} = boxOf(block), flat = Math.min(1, (thin * this.size) / (max.z - min.z || 1)), rest = run.blocks[block].slice(5);
+    return out.makeScale(1, 1, flat).setPosition(rest[0], rest[1], max.z - flat * (max.z - rest[2]));
   }
 
   #placeOutline() {
@@ -262,6 +304,7 @@ export class Replay {
       this.lamp.target.position.copy(this.middle);
       this.lamp.target.updateMatrixWorld();
       this.renderer.render(this.scene, this.camera);
+      this.onDraw();
     });
   }
 }

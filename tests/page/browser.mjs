@@ -62,6 +62,26 @@ async function replay(page) {
   await page.click('#next');
 }
 
+// Of a test that tilts: the table turns or the camera stays level with it, an arrow shows gravity, the clock the angle. No other page does.
+async function tilts(page) {
+  const leans = await page.evaluate(() => /gravity_ax_m_s2/.test(document.getElementById('run').textContent));
+  check(leans === await page.isVisible('#tilts'), `${leans ? 'no' : 'a'} table to be tilted`);
+  check(leans === await page.isVisible('#gravity'), `${leans ? 'no' : 'an'} arrow of gravity`);
+  if (!leans) return;
+  await page.focus('#scrub');
+  await page.keyboard.press('End');
+  await settled(page);
+  check(/tilt [1-9][\d.]*°/.test(await page.textContent('#clock')), `the clock of a table that has tilted reads ${await page.textContent('#clock')}`);
+  const arrow = () => page.$eval('#gravity span', (one) => Number(/rotate\((.*)rad\)/.exec(one.style.transform)[1]));
+  const tilted = await picture(page);
+  check(Math.abs(await arrow()) < 1e-6, `gravity is ${await arrow()} rad off the vertical of a picture in which the table turns`);
+  await page.uncheck('#tilts');
+  await settled(page);
+  check((await picture(page)) !== tilted, 'the table does not turn');
+  check(Math.abs(await arrow()) > 0.01, 'gravity does not lean in the picture of a camera that is level with the table');
+  await page.check('#tilts');
+}
+
 // Clicks a grid of points until one names a block that moves.
 async function pick(page) {
   const box = await page.locator('#view').boundingBox();
@@ -186,6 +206,7 @@ try {
   await readable(page, 1280);
   await heads(page);
   await replay(page);
+  await tilts(page);
   await pick(page);
   await colours(page);
   await curves(page);
