@@ -32,6 +32,7 @@ Framing::Framing(const Camera& camera, const Vec3& direction, const Stage& stage
   whole_ = beside_ = {-full, full};
   // The axes are little more than half as wide as a legend.
   beside_.min().x() = -full.x() * (1 - 1.1 * stage.legend_width), beside_.max().x() = full.x() * (1 - 2 * stage.legend_width);
+  if (beside_.sizes().x() < full.x()) beside_ = whole_;  // in a narrow picture nothing has room beside them
   legend_ = {1 - 2 * stage.legend_width, 1 - 2 * stage.legend_height};
 }
 
