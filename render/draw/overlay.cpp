@@ -220,8 +220,9 @@ void Overlay::draw_times(Image& image, double top, double bottom, double now) co
     const double x = column(i * step * one);
     fill_box(image, x - 0.5 * u, bottom, x + 0.5 * u, bottom + 3 * u, quiet_ink);
     const Font::Align align = x + 14 * u > strip_right_ ? Font::Align::right : Font::Align::middle;
-    regular_.draw(image, fmt::format("{}{:g}{}", states && i == 0 ? "state " : "", i * step, states ? "" : " s"), x, bottom + 14 * u,
-                  legible(11, u), quiet_ink, align);
+    const double size = legible(11, u), base = bottom + std::max(14 * u, 4 * u + 0.9 * size);  // clear of the tick
+    regular_.draw(image, fmt::format("{}{:g}{}", states && i == 0 ? "state " : "", i * step, states ? "" : " s"), x, base, size, quiet_ink,
+                  align);
   }
   double last = strip_left_;  // end of the previous name
   for (const Mark& mark : run_.marks) {
