@@ -179,7 +179,7 @@ Show Scenery::show(const std::vector<double>& times) {
     if (movie_.marks.forces || movie_.marks.thrust) force = std::max(force, largest_force(excerpt_.scene, actual(times[i])));
     if (!movie_.marks.mechanism.empty()) speed = std::max(speed, largest_speed(excerpt_.scene, rates(times[i])));
   }
-  mark_scale_ = {force > 0 ? round_up(force) : 1, speed > 0 ? speed : 1, show.replaced};
+  mark_scale_ = {force > 0 ? round_up(force) : 0, speed > 0 ? speed : 1, show.replaced};
   return show;
 }
 

@@ -282,22 +282,34 @@ double largest_speed(const MotionScene& scene, const Rates& rates) {
   return largest;
 }
 
-Marks marks_of(const MarkChoice& choice, const MotionScene& scene, const Stage& stage, const MotionFrame& actual, const MotionFrame& drawn,
-               const Rates& rates, const MarkScale& scale) {
-  Marks marks;
-  if (choice.forces || choice.thrust) {
-    const std::vector<Thrust> thrusts = thrusts_of(scene, actual, drawn);
-    if (choice.forces) add_forces(scene, thrusts, drawn, scale.force, marks);
-    if (choice.thrust) add_thrust_line(scene, thrusts, drawn, stage.hidden, scale.force, marks);
+namespace {
+
+void add_force_legend(const MarkChoice& choice, const MarkScale& scale, Marks& marks) {
+  if (!(scale.force > 0)) {  // a width would stand for nothing
+    marks.legend.push_back({"no joint has a normal force", 0, force_color, false});
+    if (scale.replaced) marks.legend.push_back({"contact has replaced joints", 0, force_color, false});
+    return;
   }
-  if (!choice.mechanism.empty()) add_mechanism(scene, stage, drawn, rates, scale.speed, marks);
   if (choice.forces) {
     marks.legend.push_back({"normal force " + force_text(scale.force), widest, force_color, false});
     marks.legend.push_back({force_text(0.2 * scale.force), 0.2 * widest, force_color, false});
   }
   if (choice.thrust) marks.legend.push_back({"line of thrust, " + force_text(scale.force), widest_thrust, thrust_color, false});
-  if ((choice.forces || choice.thrust) && scale.replaced)
-    marks.legend.push_back({"none where contact has replaced a joint", 0, force_color, false});
+  if (scale.replaced) marks.legend.push_back({"none where contact has replaced a joint", 0, force_color, false});
+}
+
+}  // namespace
+
+Marks marks_of(const MarkChoice& choice, const MotionScene& scene, const Stage& stage, const MotionFrame& actual, const MotionFrame& drawn,
+               const Rates& rates, const MarkScale& scale) {
+  Marks marks;
+  if (choice.forces || choice.thrust) {
+    const std::vector<Thrust> thrusts = scale.force > 0 ? thrusts_of(scene, actual, drawn) : std::vector<Thrust>{};
+    if (choice.forces) add_forces(scene, thrusts, drawn, scale.force, marks);
+    if (choice.thrust) add_thrust_line(scene, thrusts, drawn, stage.hidden, scale.force, marks);
+    add_force_legend(choice, scale, marks);
+  }
+  if (!choice.mechanism.empty()) add_mechanism(scene, stage, drawn, rates, scale.speed, marks);
   if (choice.mechanism == "motion")
     marks.legend.push_back({fmt::format("velocity, longest {:.3g} m/s; arcs: rotation", scale.speed), 2.4, motion_color, true});
   else if (!choice.mechanism.empty()) marks.legend.push_back({"mechanism; arcs: rotation", 2.4, motion_color, true});

@@ -43,7 +43,7 @@ Rates rates_of_mechanism(const std::string& given, const MotionScene& scene);
 
 // Values that have the greatest width, and the length of the longest arrow; common to all frames of a film.
 struct MarkScale {
-  double force = 1;       // N
+  double force = 1;       // N; 0 where no joint has one in any picture
   double speed = 1;       // m/s
   bool replaced = false;  // contact has taken the place of joints, whose forces are then not drawn
 };
