@@ -153,9 +153,14 @@ void Scenery::check_eyes(const std::vector<double>& times) const {
         tell(stderr, "warning: " + what);
         warned = true;
       }
-      if (!warned && stage_.on_ground && stage_.positions.empty() && eye.z() < stage_.ground_z) {
-        tell(stderr, "warning: " + words_of(shot.camera) +
-                         " stands below the ground and looks at the building from there; raise it with --eye x,y,z");
+      if (!warned && stage_.on_ground && eye.z() < stage_.ground_z) {
+        const std::string what = stage_.positions.empty()
+                                     ? " stands below the ground and looks at the building from there; raise it with --eye x,y,z"
+                                     : fmt::format(
+                                           " sees the tilted table from below at {:g} s; --tilt camera keeps it level with the table, "
+                                           "--eye x,y,z shows another side",
+                                           t);
+        tell(stderr, "warning: " + words_of(shot.camera) + what);
         warned = true;
       }
     }
