@@ -39,6 +39,7 @@ struct MotionSignal {
 struct FilmErrors {
   double lag = 0, correlation = NAN;  // s, by which the run is later than the film
   bool at_edge = false;
+  double correlated_lag = NAN;                         // s, by correlation, where first motions say something else
   double better_slow = NAN, better_correlation = NAN;  // slow motion at which the film correlates better than as given
   double fps = 0;                                      // of the film, in time of the test
   MotionSignal run, film;                              // each in its own time

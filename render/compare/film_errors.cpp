@@ -108,6 +108,7 @@ void write_film_errors(const FilmErrors& e, const FilmComparison& wish, bool qui
       std::min_element(e.frames.begin(), e.frames.end(), [](const auto& a, const auto& b) { return a.overlap < b.overlap; })->overlap;
   Json json;
   json["alignment"] = {{"method", wish.align}, {"lag_s", e.lag}, {"correlation", e.correlation}, {"at_edge", e.at_edge}, {"fps", e.fps}};
+  if (std::isfinite(e.correlated_lag)) json["alignment"]["lag_by_correlation_s"] = e.correlated_lag;
   if (std::isfinite(e.better_slow)) json["alignment"]["better"] = {{"slow", e.better_slow}, {"correlation", e.better_correlation}};
   json["camera"] = {{"name", e.camera}, {"residual_px", wish.residual}};
   json["method"] = {{"silhouette",
@@ -138,6 +139,10 @@ void write_film_errors(const FilmErrors& e, const FilmComparison& wish, bool qui
     tell(stderr, fmt::format("warning: {} picture{} outside the run: left out", e.outside,
                              e.outside == 1 ? " of the film lies" : "s of the film lie"));
   if (e.at_edge) tell(stderr, "warning: the best lag is the largest one searched; the true one may lie beyond, see --reach");
+  if (std::isfinite(e.correlated_lag))
+    tell(stderr, fmt::format("warning: by first motions the run is {} than the film, by correlation ({:.2f}) {}: what moves first lies "
+                             "before the first picture of one of them, or is too faint; use --align correlation",
+                             lag_text(e.lag), e.correlation, lag_text(e.correlated_lag)));
   if (wish.align == "correlation" && e.correlation < doubtful) {
     const std::string way = std::isfinite(e.better_slow) ? fmt::format("with --slow {:g} they correlate by {:.2f}; is the film that slow?",
                                                                        e.better_slow, e.better_correlation)

@@ -28,6 +28,13 @@ Samples levelled_over(const Samples& signal, double width) {
   return out;
 }
 
+// When the pictures first change by a twentieth of the way from `rest` to their largest change. A run may move from its first picture on.
+double first_change(const Samples& signal, double rest) {
+  Samples moved = signal;
+  moved.t.insert(moved.t.begin(), signal.t.front()), moved.y.insert(moved.y.begin(), rest);
+  return first_motion(moved);
+}
+
 // Films of tests are often slow motion, and do not say so. A faster pace leaves too little that is level to be told from another.
 void try_paces(FilmErrors& errors, double slow, const Samples& run, const Samples& film, double width, double reach) {
   double best = doubtful;
@@ -81,7 +88,11 @@ void align_film(FilmErrors& errors, const FilmComparison& wish, double slow, con
   const bool by_correlation = wish.align == "correlation";
   if (by_correlation && !(found.correlation >= doubtful)) try_paces(errors, slow, level, film, width, wish.reach);
   if (by_correlation) errors.lag = found.lag, errors.at_edge = found.at_edge;
-  if (wish.align == "first-motion") errors.lag = first_motion(run) - first_motion(film);
+  if (wish.align == "first-motion") {
+    errors.lag =
+        first_change(run, 0) - first_change(film, *std::min_element(film.y.begin(), film.y.end()));  // a film has its noise at rest
+    if (found.correlation >= doubtful && std::fabs(found.lag - errors.lag) > 2 * width) errors.correlated_lag = found.lag;
+  }
   if (!std::isfinite(errors.lag) || (by_correlation && !std::isfinite(found.correlation)))
     throw Error("nothing moves in it, or it has no time in common with the run, so that the times cannot be aligned; add --align none",
                 {wish.film});

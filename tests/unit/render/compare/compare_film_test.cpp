@@ -4,6 +4,7 @@
 
 #include "engine/base/system/process.h"
 #include "engine/record/format/json.h"
+#include "render/compare/compare_film.h"
 #include "render/compare/films.h"
 #include "render/image/measures.h"
 #include "render/movie/film_reader.h"
@@ -211,4 +212,25 @@ TEST_CASE("what is no film is refused, and nothing is written", "[render][compar
   CHECK(films.bench.said.find("no two PNG files") != std::string::npos);
   CHECK(films.bench.erbs({"compare", films.run, (films.bench.folder / "text.mp4").string(), "-o", place, "--expect", "peak<5%"}) == 2);
   CHECK_FALSE(std::filesystem::exists(place));
+}
+
+TEST_CASE("first motions are found where a run moves from its first picture on, and where they lie before a film the user is told",
+          "[render][compare]") {
+  // The run creeps from the start and falls at 5 s.
+  const auto change = [](double t) { return t < 0 ? 0.0 : t < 5 ? 1.0 : 1 + 4 * std::min(1.0, t - 5); };
+  const auto lag_from = [&](double from) {  // of a film that begins at this time of the run
+    FilmErrors errors;
+    errors.fps = 25;
+    for (int i = 1; i < 200; ++i) errors.run.t.push_back(0.04 * (i - 0.5)), errors.run.y.push_back(change(0.04 * (i - 0.5)));
+    errors.film.t = errors.run.t;
+    for (const double t : errors.film.t) errors.film.y.push_back(change(t + from) + 0.02 * std::sin(100 * t));
+    FilmComparison wish;
+    wish.align = "first-motion";
+    align_film(errors, wish, 1, errors.run.t);
+    return errors;
+  };
+  const FilmErrors late = lag_from(-0.36), early = lag_from(0.52);
+  CHECK(late.lag == Approx(-0.36).margin(0.04));
+  CHECK(std::isnan(late.correlated_lag));
+  CHECK(early.correlated_lag == Approx(0.52).margin(0.02));
 }
