@@ -179,8 +179,8 @@ void push_events(lua_State* lua, const CsvTable& events) {
   }
 }
 
-// run.metrics.NAME of a metric of the scene is nil, as is run.metrics.metrics.NAME: no metric sees another one. What asks for one is told
-// so if it ends without a value.
+// run.metrics.NAME of a metric of the scene is nil, as is run.metrics.metrics.NAME of one below. What asks for one is told so if it ends
+// without a value.
 int absent_key(lua_State* lua, Context& context) {
   if (lua_type(lua, 2) == LUA_TSTRING) {
     const std::string key = lua_tostring(lua, 2);
@@ -228,7 +228,7 @@ std::string called(const Metric& metric) { return metric.question.empty() ? fmt:
 
 std::string hint_of(const Context& context) {
   if (context.unseen.empty()) return "";
-  return fmt::format("; it asks for metric \"{}\", which no other one sees: let both call one local function", context.unseen);
+  return fmt::format("; it asks for metric \"{}\": run.metrics.metrics has those above this one that have a value", context.unseen);
 }
 
 // Why the function gave no value; "" if it may be so: a metric of the scene that is nil has none.
@@ -248,6 +248,7 @@ std::vector<MetricValue> Script::evaluate_metrics(const RunResults& results) {
   const Stretch stretch(lua_, context);
   const Cap uncapped(context.limits, false);
   RunResults seen = results;  // with the metrics so far, which later ones may use
+  if (seen.metrics.is_object() && !seen.metrics.contains("metrics")) seen.metrics["metrics"] = Json::object();
   context.run = &seen;
   for (const Metric& metric : context.metrics) {
     MetricValue value{metric.name, metric.unit, std::nullopt, "", ""};

@@ -338,8 +338,7 @@ void Script::finish(bool whole) {
     context.scene.expectations.clear();
     context.scene.pictures.clear();
     const auto asked = std::ranges::find(context.metrics, "study", &Metric::name);  // it may use those above it
-    const bool by_function = asked != context.metrics.end();
-    context.metrics.erase(by_function ? asked + 1 : context.metrics.begin(), context.metrics.end());
+    context.metrics.erase(asked == context.metrics.end() ? context.metrics.begin() : asked + 1, context.metrics.end());
   }
   if (context.mistakes.empty()) return;
   std::stable_sort(context.mistakes.begin(), context.mistakes.end(), [&](const std::string& a, const std::string& b) {

@@ -82,17 +82,20 @@ TEST_CASE("a metric that is no finite number has no value and a warning, and is 
   for (const MetricValue& value : values) CHECK(value.error.empty());
 }
 
-TEST_CASE("a metric without a value that asked for another one is told that it sees none", "[lua]") {
+TEST_CASE("a metric sees those above it, and without a value it is told where they are", "[lua]") {
   const auto values = evaluate(
       "metric('a', '', 2)\nmetric('b', '', function(run) return run.metrics.a end)\n"
       "metric('c', '', function(run) return 2 * run.metrics.a end)\nmetric('d', '', function(run) return run.metrics.nope end)\n"
-      "metric('e', '', function(run) return run.metrics.a or 7 end)");
-  REQUIRE(values.size() == 5);
+      "metric('e', '', function(run) return run.metrics.a or 7 end)\nmetric('f', '', function(run) return run.metrics.metrics.a end)\n"
+      "metric('g', '', function(run) return run.metrics.metrics.h end)\nmetric('h', '', 1)");
+  REQUIRE(values.size() == 8);
   CHECK(values[1].warning ==
-        "scene.lua:7: metric \"b\" gave nil and has no value; it asks for metric \"a\", which no other one sees: let both call one local "
-        "function");
+        "scene.lua:7: metric \"b\" gave nil and has no value; it asks for metric \"a\": run.metrics.metrics has those above this one that "
+        "have a value");
+  CHECK(*values[5].value == 2);
+  CHECK(contains(values[6].warning, "it asks for metric \"h\""));
   CHECK(contains(values[2].error, "scene.lua:8: attempt to perform arithmetic"));
-  CHECK(contains(values[2].error, "; it asks for metric \"a\", which"));
+  CHECK(contains(values[2].error, "; it asks for metric \"a\": run"));
   CHECK((values[3].warning.empty() && values[4].warning.empty()));
   CHECK(*values[4].value == 7);
 }
