@@ -103,6 +103,7 @@ TEST_CASE("CSMIP V2 says its step beside the count", "[loads][record]") {
 }
 
 TEST_CASE("a mistake in a file with decimal commas quotes the file", "[loads][record][bad_input]") {
+  const auto in_g = [](Record& r) { r.unit = "m/s2"; };
   const auto commas = [](Record& r) { r.unit = "m/s2", r.decimal = "comma"; };
   CHECK_THAT(mistake_in("0,0 1,5\n0,1 1,2x3\n", in_g), Contains("motion.txt:2: column 5: \"1,2x3\" is not a number"));
   CHECK_THAT(mistake_in("0,0; 1,5\n0,1; 1.234,5\n", commas), Contains("motion.txt:2: column 6: \"1.234,5\" is not a number"));
