@@ -56,14 +56,19 @@ function pairs(container)
 end
 
 -- The order of a table is kept while next goes through it. Its first key alone needs no sorting, so that next(t) may ask whether t is
--- empty.
+-- empty; it may be gone from the table when its successor is asked for.
 local orders = setmetatable({}, { __mode = "k" })
 
 local function order_of(container, key)
   local order = orders[container]
   if order and order.place[key] then return order end
-  order = { keys = sorted_keys(container), place = {} }
-  for i = 1, #order.keys do order.place[order.keys[i]] = i end
+  local keys = sorted_keys(container)
+  if order and order.first == key and rawget(container, key) == nil then
+    keys[#keys + 1] = key
+    sort(keys, before)
+  end
+  order = { keys = keys, place = {} }
+  for i = 1, #keys do order.place[keys[i]] = i end
   if not order.place[key] then error("next: this key is not in the table", 3) end
   orders[container] = order
   return order
@@ -75,7 +80,7 @@ function next(container, key)
     for other in raw_next, container do
       if before(other, first) then first = other end
     end
-    orders[container] = nil
+    orders[container] = first ~= nil and { first = first, place = {} } or nil
     if first == nil then return nil end
     return first, rawget(container, first)
   end

@@ -120,7 +120,8 @@ void add_followers(const Model& m, const BlockMotions& motions, const RigidMotio
   blocks.erase(std::unique(blocks.begin(), blocks.end()), blocks.end());
 }
 
-// Beds of levels all of which move: there a wall slides or opens from end to end, and no diagonal crack crosses it. [njoint]
+// Beds of levels nearly all of which move: there a wall slides or opens from end to end. A diagonal crack takes one or two of a level.
+// [njoint]
 std::vector<char> beds_from_end_to_end(const Model& m, const Mechanism& joints, const std::vector<char>& inside, const Vec3& up) {
   std::vector<char> moved(z(m.njoint)), out(z(m.njoint));
   for (const MovedJoint& one : joints.moved) moved[z(one.joint)] = 1;
@@ -134,10 +135,18 @@ std::vector<char> beds_from_end_to_end(const Model& m, const Mechanism& joints, 
     const double one_level = 1e-3 * (beds.back().first - beds.front().first);  // m
     while (end < beds.size() && beds[end].first <= beds[first].first + one_level) ++end;
     const auto level = std::span(beds).subspan(first, end - first);
-    const bool all = std::ranges::all_of(level, [&](const auto& bed) { return moved[z(bed.second)] != 0; });
-    for (const auto& bed : level) out[z(bed.second)] = all;
+    const auto moving = std::ranges::count_if(level, [&](const auto& bed) { return moved[z(bed.second)] != 0; });
+    for (const auto& bed : level) out[z(bed.second)] = 4 * moving >= 3 * std::ssize(level);
   }
   return out;
+}
+
+// Courses that slide on each other, the upper ones further, are no one body. `inside`: blocks that count, with the supports below them.
+bool courses_slide(const Model& m, const Mechanism& joints, const Cracks& cracks, const std::vector<char>& inside, const Vec3& up) {
+  if (!cracks.only_slide()) return false;
+  const std::vector<char> whole = beds_from_end_to_end(m, joints, inside, up);
+  const auto found = std::ranges::count_if(joints.moved, [&](const MovedJoint& one) { return whole[z(one.joint)] != 0; });
+  return 4 * found >= 3 * cracks.beds;
 }
 
 // Whether some crack of a wall, joints that share blocks, climbs through bed and head joints both along and up.
@@ -210,7 +219,8 @@ NamedMechanism name_mechanism(const Model& m, const BlockMotions& motions, const
   const bool stepped = cracks.beds > 1 && cracks.heads > 1;
   if (cracks.parts > 0 && cracks.hinges + cracks.slides == 0) {
     out.name = "parting";
-  } else if (body.residual < as_one && (body.turning < without_turn || cracks.only_slide())) {
+  } else if ((body.residual < as_one && (body.turning < without_turn || cracks.only_slide())) ||
+             courses_slide(m, joints, cracks, std::vector<char>(z(m.nblock), 1), up)) {
     out.name = sinks(m, motions, blocks, up) ? "crushing" : "sliding";
   } else if (body.residual < as_one) {
     const Vec3 across = up.cross(push);
@@ -263,6 +273,7 @@ std::vector<WallMechanism> wall_mechanisms(const Model& m, const BlockMotions& m
     } else {
       out.emplace_back(wall.name, has_diagonal_crack(m, joints, inside, along, up) ? "diagonal cracks"
                                   : as_body && !turns                              ? "sliding"
+                                  : courses_slide(m, joints, cracks, inside, up)   ? "sliding"
                                   : as_body                                        ? "rocking in plane"
                                   : cracks.slides > cracks.hinges                  ? "shear"
                                                                                    : "hinges");

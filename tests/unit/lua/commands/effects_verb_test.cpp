@@ -59,7 +59,7 @@ TEST_CASE("a run of effects that fails is a row with its reason, and the scene i
   CHECK(contains(bench.said, "took longer than max_wall"));
 }
 
-TEST_CASE("--force leaves alone what no study has written", "[program][sweep]") {
+TEST_CASE("the option --force leaves alone what no study has written", "[program][sweep]") {
   Bench bench;
   const std::string scene = bench.scene(damped_pier() + "metric('one', '', 1) param('a', 1)\n");
   bench.write("study.lua", "study{ scene = 'scene.lua', vary = { grid{ a = { 1, 2 } } }, collect = { 'time_s' } }");

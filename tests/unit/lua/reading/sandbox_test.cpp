@@ -133,7 +133,7 @@ TEST_CASE("no text of a script holds an address", "[lua][sandbox]") {
   }
   CHECK(mentions(mistakes_in("string.format('%p', {})"), "%p is not available in scenes"));
   CHECK(mentions(mistakes_in("string.format('%d', {})"), "number expected, got table"));
-  CHECK(mentions(mistakes_in("string.format('%s')"), "bad argument #2 to 'format' (no value)"));
+  CHECK(mentions(mistakes_in("string.format('%s')"), "(no value)"));
 }
 
 TEST_CASE("include stays inside the scene's folder", "[lua][sandbox]") {
