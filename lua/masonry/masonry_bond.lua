@@ -20,11 +20,21 @@ local function piece_cost(job, length, at_end)
   return 1 + math.max(0, (job.half - length) / job.half) + (at_end and 0 or 0.2)
 end
 
+-- The first index of a rising list whose value is at least x; one past its end if there is none.
+local function first_from(list, x)
+  local lo, hi = 1, #list + 1
+  while lo < hi do
+    local middle = (lo + hi) // 2
+    if list[middle] < x then lo = middle + 1 else hi = middle end
+  end
+  return lo
+end
+
 -- Cost of a head joint at u by its lap, the distance from the nearest head joint beneath: high below a quarter of a brick, low
--- below a half.
+-- below a half. `below` rises.
 local function lap_cost(masonry, u, below)
-  local lap, quarter, cost = masonry.full, masonry.full / 4, 0
-  for _, b in ipairs(below) do lap = math.min(lap, math.abs(b - u)) end
+  local lap, quarter, cost, after = masonry.full, masonry.full / 4, 0, first_from(below, u)
+  for i = math.max(1, after - 1), math.min(after, #below) do lap = math.min(lap, math.abs(below[i] - u)) end
   if lap < quarter - eps then cost = 1 + 6 * (quarter - lap) / quarter end
   if lap < masonry.half then cost = cost + 0.3 * (masonry.half - lap) / masonry.half end
   return cost
@@ -61,7 +71,11 @@ local function fill(job, s)
       answer.cost, answer.length, answer.joint, answer.rest = here + after.cost, length, { u = u, width = width }, after
     end
   end
-  for _, p in ipairs(job.pattern or {}) do try(p.u, p.width, 0) end
+  if job.pattern then
+    for i = first_from(job.pattern_u, s), first_from(job.pattern_u, s + 2 * job.full) - 1 do
+      try(job.pattern[i].u, job.pattern[i].width, 0)
+    end
+  end
   local off_pattern = job.pattern and 0.6 or 0
   try(s + job.full + job.t / 2, job.t, off_pattern)
   try(s + job.half + job.t / 2, job.t, off_pattern)
@@ -99,23 +113,26 @@ local function widened(job, with_half)
   return chain
 end
 
--- Pieces and head joints of one stretch [start, stop], without a joint at its ends. below: positions of the head joints beneath.
+-- Pieces and head joints of one stretch [start, stop], without a joint at its ends. below: positions of the head joints beneath, rising.
 -- pattern: joints {u, width} of the solid wall, which the course keeps where it can; nil while the pattern itself is chosen.
 local function lay(masonry, start, stop, below, pattern)
-  local near, kept = {}, pattern and {}
+  local near, kept, kept_u = {}, pattern and {}, {}
   local signature = { string.format("%.2f %.2f |", start * 1e3, stop * 1e3) }
   local function within(u) return u > start - masonry.full and u < stop + masonry.full end
   for _, u in ipairs(below) do
     if within(u) then near[#near + 1], signature[#signature + 1] = u, string.format("%.2f", u * 1e3) end
   end
   for _, p in ipairs(pattern or {}) do
-    if within(p.u) then kept[#kept + 1], signature[#signature + 1] = p, string.format("p%.2f", p.u * 1e3) end
+    if within(p.u) then
+      kept[#kept + 1], kept_u[#kept_u + 1], signature[#signature + 1] = p, p.u, string.format("p%.2f", p.u * 1e3)
+    end
   end
   local key = table.concat(signature, " ")
   local found = masonry.laid[key]
   if found ~= nil then return found end
   local job = setmetatable({
-    start = start, stop = stop, reach = 2 * (masonry.full + masonry.t), below = near, pattern = kept, memo = {}, joint_costs = {},
+    start = start, stop = stop, reach = 2 * (masonry.full + masonry.t), below = near, pattern = kept,
+    pattern_u = kept_u, memo = {}, joint_costs = {},
   }, { __index = masonry })
   local chain = fill(job, start)
   if not pattern then
@@ -142,3 +159,4 @@ local function lay(masonry, start, stop, below, pattern)
 end
 
 masonry_parts.lay, masonry_parts.lap_cost, masonry_parts.piece_kind = lay, lap_cost, piece_kind
+masonry_parts.first_from = first_from

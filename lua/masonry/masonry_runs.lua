@@ -4,6 +4,7 @@ local eps, millimetres = masonry_parts.eps, masonry_parts.millimetres
 local fail, did_you_mean = masonry_parts.fail, masonry_parts.did_you_mean
 local widen_joint = widen_joint  -- function of the program, hidden from scenes
 local lay, lap_cost, piece_kind = masonry_parts.lay, masonry_parts.lap_cost, masonry_parts.piece_kind
+local first_from = masonry_parts.first_from
 
 -- ---- runs: the straight stretches of a plan ------------------------------------------------------------------------------------
 
@@ -53,6 +54,7 @@ local function make_patterns(masonry, index, run)
     local start, stop = ends(masonry, index, run, parity)
     local _, _, below = ends(masonry, index, run, 1 - parity)
     for _, joint in ipairs(run.pattern[1 - parity] or {}) do below[#below + 1] = joint.u end
+    table.sort(below)
     local course = lay(masonry, start, stop, below, nil)
     if not course then
       fail("wall \"%s\" of %s cannot be laid with pieces of at least %s; make it longer", run.name, millimetres(stop - start),
@@ -181,8 +183,8 @@ local function note_joint(masonry, below, u, width)
   local report = masonry.out.report
   local key = millimetres(width)
   report.head_joints[key] = (report.head_joints[key] or 0) + 1
-  for _, b in ipairs(below) do
-    local d = math.abs(b - u)
+  for i = math.max(1, first_from(below, u - masonry.full) - 1), math.min(#below, first_from(below, u + masonry.full)) do
+    local d = math.abs(below[i] - u)
     report.least_lap = math.min(report.least_lap, d)
     if d < masonry.t + eps then report.stacked = report.stacked + 1 end
     if d < masonry.full / 4 - eps then report.short_laps = report.short_laps + 1 end
@@ -291,6 +293,7 @@ local function lay_course(masonry, index, run, storey, course, number, z, below,
     brick = lay_pieces(masonry, run, storey, course, laid, stem, brick, z)
     for _, j in ipairs(laid.joints) do joint(j.u, j.width) end
   end
+  table.sort(joints)
   return joints
 end
 
