@@ -315,7 +315,7 @@ void main() {
   float r = radius_uv / -p.z, aspect = texel.x / texel.y, sum = 0.0;
   const int count = 9;
   for (int i = 0; i < count; ++i) {
-    float along = (float(i) + jitter) / float(count), angle = turn + 6.2831853 * 3.0 * along;
+    float along = (float(i) + jitter) / float(count), angle = turn + 6.2831853 * 4.0 * along;
     vec3 v = point(uv + vec2(cos(angle) * aspect, sin(angle)) * (r * along)) - p;
     float vv = dot(v, v);
     sum += max(0.0, dot(v, n) + p.z * 0.0012) / (vv + 0.01 * radius * radius) * step(vv, 2.5 * radius * radius);
