@@ -138,6 +138,7 @@ int run_program(int argc, char** argv) {
   app.require_subcommand(1);
   app.set_version_flag("--version", "erbs " + program_version(), "the version and the commit it was built from");
   add_verbs(app, line);
+  if (std::find(argv, argv + argc, std::string_view("--log-json")) != argv + argc) tell_as_json();  // mistakes in the options too
   return finish_streams(answer(app, line, argc, argv), exit_usage);
 }
 

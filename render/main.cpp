@@ -282,8 +282,10 @@ int main(int argc, char** argv) {
   app.add_flag("--dust", a.movie.dust, "clouds of dust where blocks hit something: an illustration, not computed");
   app.add_flag("--svg", a.movie.svg,
                "line drawings in place of pictures, at the times of --stills: outlines and cracks, with --forces .. too");
-  app.add_flag("!--no-overlay", a.movie.look.overlay, "the scene alone: no title, clock, legend, scale, axes and ground motion");
-  app.add_flag("--video,!--no-video", a.movie.video, "an MP4 a camera (default), or pictures alone");
+  app.add_flag_callback(
+      "--no-overlay", [&a] { a.movie.look.overlay = false; }, "the scene alone: no title, clock, legend, scale, axes and ground motion");
+  CLI::Option* video = app.add_flag("--video", a.movie.video, "an MP4 a camera (default)");
+  app.add_flag_callback("--no-video", [&a] { a.movie.video = false; }, "pictures alone")->excludes(video);
   app.add_flag("--webp", a.movie.webp, "an animated WebP that repeats itself in place of the MP4, for pages such as a README");
   app.add_flag("--figures", a.figures_only, "only histories.svg and energy.svg");
   app.add_flag("--no-figures", a.no_figures, "no figures");
