@@ -171,6 +171,11 @@ std::vector<ColumnPair> pairs_of(const CompareCommand& command, bool of_run) {
   return pair_columns(with_energies(run), with_energies(reference), {}, run_file(reference, "energy.csv"));
 }
 
+std::vector<std::string> only_in(std::vector<std::string> of, const std::vector<std::string>& other) {
+  std::erase_if(of, [&](const std::string& text) { return std::ranges::find(other, text) != other.end(); });
+  return of;
+}
+
 Compared compare_histories(const CompareCommand& command) {
   const std::string &run = command.words[0], &reference = command.words[1];
   const TimeSpan chosen = command.time.empty() ? TimeSpan{} : time_span_of(command.time);
@@ -181,7 +186,8 @@ Compared compare_histories(const CompareCommand& command) {
   if (of_run) {
     check_blocks(run, reference);
     const Manifest ours = read_manifest(run), theirs = read_manifest(reference);
-    c.comparison.scenes = SceneDifferences{ours.scene_hash != theirs.scene_hash, compare_params(ours.params, theirs.params)};
+    c.comparison.scenes = SceneDifferences{ours.scene_hash != theirs.scene_hash, compare_params(ours.params, theirs.params),
+                                           only_in(ours.notes, theirs.notes), only_in(theirs.notes, ours.notes)};
   }
   c.comparison.shift = find_shift(c.pairs, alignment_of(command, of_run), command.reach);
   const double lag = c.comparison.shift.lag;

@@ -67,8 +67,9 @@ struct ParamDifference {
   std::optional<double> run, reference;
 };
 struct SceneDifferences {
-  bool script = false;                  // the scenes are not the same text
-  std::vector<ParamDifference> params;  // in the order of the run, then what the reference has alone
+  bool script = false;                                            // the scenes are not the same text
+  std::vector<ParamDifference> params;                            // in the order of the run, then what the reference has alone
+  std::vector<std::string> run_notes = {}, reference_notes = {};  // of either alone, such as params that are words
 };
 std::vector<ParamDifference> compare_params(const std::vector<Param>& run, const std::vector<Param>& reference);
 

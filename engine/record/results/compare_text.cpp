@@ -31,12 +31,14 @@ std::string scenes_text(const SceneDifferences& scenes) {
     return v ? fmt::format("{:.6g}{}{}", *v, unit.empty() ? "" : " ", unit) : std::string("none");
   };
   std::string text = scenes.script ? "scene       the two scripts differ\n" : "";
-  if (scenes.params.empty()) return text + "params      the same\n";
+  if (scenes.params.empty() && scenes.run_notes.empty() && scenes.reference_notes.empty()) return text + "params      the same\n";
   for (std::size_t i = 0; i < scenes.params.size(); ++i) {
     const ParamDifference& p = scenes.params[i];
     text +=
         fmt::format("{:<12}{}: run {}, reference {}\n", i == 0 ? "params" : "", p.name, value(p.run, p.unit), value(p.reference, p.unit));
   }
+  for (const std::string& note : scenes.run_notes) text += fmt::format("run         {}\n", note);
+  for (const std::string& note : scenes.reference_notes) text += fmt::format("reference   {}\n", note);
   return text;
 }
 
@@ -95,6 +97,7 @@ Json json_of(const RunComparison& c) {
     json["params"] = Json::object();
     for (const ParamDifference& p : c.scenes->params)
       json["params"][p.name] = {{"run", value(p.run)}, {"reference", value(p.reference)}, {"unit", p.unit}};
+    json["notes"] = {{"run", c.scenes->run_notes}, {"reference", c.scenes->reference_notes}};
   }
   const CollapseErrors& f = c.collapse;
   if (f.known)

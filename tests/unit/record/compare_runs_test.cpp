@@ -117,6 +117,9 @@ TEST_CASE("params that differ are listed with both values, and those that one ru
   CHECK(json["params"]["old"]["reference"].is_null());
   comparison.scenes = SceneDifferences{true, compare_params(a, a)};
   CHECK_THAT(table_of(comparison), Catch::Contains("the two scripts differ") && Catch::Contains("params      the same"));
+  comparison.scenes = SceneDifferences{false, {}, {"param kind = \"dry\""}, {}};  // a param that is a word
+  CHECK_THAT(table_of(comparison), Catch::Contains("run         param kind = \"dry\"\n") && !Catch::Contains("the same"));
+  CHECK(json_of(comparison)["notes"]["run"] == Json{"param kind = \"dry\""});
 }
 
 TEST_CASE("limits are read whole or refused", "[compare]") {
