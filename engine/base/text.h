@@ -1,6 +1,7 @@
 // Foreign text: file names, words of scripts, cells of records, arguments. None of its control characters reaches a terminal, a file or
 // another program.
 #pragma once
+#include <concepts>
 #include <cstdio>
 #include <string>
 #include <string_view>
@@ -25,6 +26,12 @@ void tell(std::FILE* to, std::string_view text);
 
 // From now on each message to stderr is one line {"message": text}, for programs that read it beside the lines of progress.
 void tell_as_json();
+
+// "1 block", "3 blocks".
+template <std::integral Count>
+std::string counted(Count n, std::string_view noun) {
+  return std::to_string(n).append(" ").append(noun).append(n == 1 ? "" : "s");
+}
 
 // Valid UTF-8 on one line for files. Control characters become spaces, invalid bytes the character U+FFFD.
 std::string for_files(std::string_view text);

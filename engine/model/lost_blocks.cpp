@@ -6,6 +6,7 @@
 
 #include "engine/base/count.h"
 #include "engine/base/error.h"
+#include "engine/base/text.h"
 
 namespace erbs {
 namespace {
@@ -49,9 +50,9 @@ std::string lost_blocks(const Model& m, const State& s) {
   const std::size_t count = lost.size();
   const Vec3 at = place_of(m, s, lost.front());
   return fmt::format(
-      "{} block{} fell past the ground by more than the height of the structure, '{}' the first of the scene, now at ({:.3g}, {:.3g}, "
+      "{} fell past the ground by more than the height of the structure, '{}' the first of the scene, now at ({:.3g}, {:.3g}, "
       "{:.3g}) m; if what comes off should land, make the ground larger: ground{{ size = {:g} }} reaches below {}",
-      count, count > 1 ? "s" : "", m.block_name[z(lost.front())], at.x(), at.y(), at.z(), std::ceil(2 * farthest + 1),
+      counted(count, "block"), m.block_name[z(lost.front())], at.x(), at.y(), at.z(), std::ceil(2 * farthest + 1),
       count > 1 ? "all of them" : "it");
 }
 

@@ -37,7 +37,7 @@ struct Material {
         {"kn", &Material::kn, "Pa/m", "normal stiffness of debris contacts", 1e3, 1e16},
         {"ks", &Material::ks, "Pa/m", "shear stiffness of debris contacts", 0, 1e16},
         {"friction", &Material::friction, "", "coefficient of friction of debris contacts", 0, 10},
-        {"restitution", &Material::restitution, "", "restitution of a central impact: speed after over speed before", 0, 1},
+        {"restitution", &Material::restitution, "", "restitution of a central impact: speed after over before, at least 0.02", 0, 1},
         {"color", &Material::color, "", "red, green, blue for the pictures", 0, 1},
     };
   }

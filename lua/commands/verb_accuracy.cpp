@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <filesystem>
 
+#include "engine/base/text.h"
 #include "engine/record/folder/run_folder.h"
 #include "lua/program/progress.h"
 #include "lua/program/say.h"
@@ -78,8 +79,8 @@ int whole_study(const AccuracyCommand& command) {
   const std::string readme = (fs::weakly_canonical(folder) / "README.md").string();
   if (fs::exists(readme)) replace_marked(readme, "accuracy", table), replace_marked(readme, "quality", quality);
   if (fs::exists(home / "README.md")) replace_marked((home / "README.md").string(), "accuracy", sentence);
-  say("{}\n{}\n{}\n{} problems, {} runs, {} of processor time, {} of wall-clock time; {}/accuracy.csv, accuracy.svg, accuracy.png\n", table,
-      quality, sentence, all.size(), result.runs, duration_text(result.cpu), duration_text(result.wall), out);
+  say("{}\n{}\n{}\n{}, {}, {} of processor time, {} of wall-clock time; {}/accuracy.csv, accuracy.svg, accuracy.png\n", table, quality,
+      sentence, counted(all.size(), "problem"), counted(result.runs, "run"), duration_text(result.cpu), duration_text(result.wall), out);
   return exit_ok;
 }
 
@@ -99,7 +100,7 @@ int verb_accuracy(const AccuracyCommand& command) {
   for (const char* picture : {"accuracy.svg", "accuracy.png"}) draw_accuracy(s, run_file(directory, picture));
   say("\n{}\n", plain_sentence(s.quantity(), s.main, s.all));
   const int code = answer(s, command);
-  say("{} runs, {} of processor time, {} of wall-clock time; {}/accuracy.csv, accuracy.svg, accuracy.png\n", result.runs,
+  say("{}, {} of processor time, {} of wall-clock time; {}/accuracy.csv, accuracy.svg, accuracy.png\n", counted(result.runs, "run"),
       duration_text(result.cpu), duration_text(result.wall), directory);
   if (s.waiting > 0)
     say("{} of them did not fit into {}; --resume makes them, --within 10m allows more time\n", s.waiting, duration_text(command.within));

@@ -31,9 +31,9 @@ void print_scene(const Scene& scene) {
   std::set<std::string> groups;
   size_t fixed = 0;
   for (const Block& block : scene.blocks) groups.insert(block.group), fixed += block.fixed;
-  say("{}: {} blocks ({} fixed) in {} groups, {} materials, {} joint rules, {} loads, {} recorders, {} cameras\n", scene.file,
-      scene.blocks.size(), fixed, groups.size(), scene.materials.size(), scene.joint_rules.size(), scene.loads.size(),
-      scene.recorders.size(), scene.cameras.size());
+  say("{}: {} ({} fixed) in {}, {}, {}, {}, {}, {}\n", scene.file, counted(scene.blocks.size(), "block"), fixed,
+      counted(groups.size(), "group"), counted(scene.materials.size(), "material"), counted(scene.joint_rules.size(), "joint rule"),
+      counted(scene.loads.size(), "load"), counted(scene.recorders.size(), "recorder"), counted(scene.cameras.size(), "camera"));
   for (const Param& param : scene.params)
     say("  param {} = {:g} {}{}{}\n", param.name, param.value, param.unit, param.text.empty() ? "" : "  -- ", param.text);
   for (const std::string& note : scene.notes) say("  {}\n", note);

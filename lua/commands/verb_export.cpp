@@ -94,10 +94,9 @@ int verb_export(const ExportCommand& command) {
     std::uintmax_t bytes = 0;
     for (const std::string& one : paths) bytes += fs::file_size(one);
     if (!command.output.quiet)
-      say("{:<5} {} ({} block{}, {}, {:.3g} MB)\n", format, shown(path, 400), run.scene.blocks.size(),
-          run.scene.blocks.size() == 1 ? "" : "s",
+      say("{:<5} {} ({}, {}, {:.3g} MB)\n", format, shown(path, 400), counted(run.scene.blocks.size(), "block"),
           format == "obj" ? fmt::format("at {:.4g} s", run.frames[static_cast<std::size_t>(instant)].t)
-                          : fmt::format("{} frame{}", run.frames.size(), run.frames.size() == 1 ? "" : "s"),
+                          : counted(run.frames.size(), "frame"),
           1e-6 * static_cast<double>(bytes));
   }
   tell_missing_tractions(command, formats, run);

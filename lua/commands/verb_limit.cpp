@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "engine/analysis/limit/report.h"
+#include "engine/base/text.h"
 #include "engine/base/units.h"
 #include "engine/model/build/build.h"
 #include "engine/record/folder/run_folder.h"
@@ -51,8 +52,8 @@ void print_row(const char* name, const Multiplier& m, const std::string& more) {
 }
 
 void print(const LimitResult& r, const LimitLoad& load, const Model& model, const std::optional<double>& smooth) {
-  say("{} block{}, {} joint{}, {} contact points; {}; {:.2f} s\n", r.problem.nbody, r.problem.nbody == 1 ? "" : "s", model.njoint,
-      model.njoint == 1 ? "" : "s", r.problem.contacts.size(), r.method, r.seconds);
+  say("{}, {}, {}; {}; {:.2f} s\n", counted(r.problem.nbody, "block"), counted(model.njoint, "joint"),
+      counted(r.problem.contacts.size(), "contact point"), r.method, r.seconds);
   const std::string mechanism = limit_mechanism(r, model).words;
   if (!r.stands) {
     say("does not stand under its constant loads: it carries {:.4g} of them\nmechanism        {}\n", r.standing_share, mechanism);

@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "engine/base/system/process.h"
+#include "engine/base/text.h"
 #include "engine/record/folder/run_folder.h"
 #include "engine/record/plot/unit.h"
 #include "engine/record/report/drift.h"
@@ -246,8 +247,7 @@ bool draws_frames(const PlotCommand& command, CurveKind kind) {
   if (command.drift) draw_drift(command, path);
   else draw_histogram(command, path);
   if (!command.output.quiet)
-    say("picture {} ({} of {} run{})\n", shown(path, 400), command.drift ? "drift" : "histogram", command.words.size(),
-        command.words.size() == 1 ? "" : "s");
+    say("picture {} ({} of {})\n", shown(path, 400), command.drift ? "drift" : "histogram", counted(command.words.size(), "run"));
   return true;
 }
 
@@ -272,7 +272,7 @@ int verb_plot(const PlotCommand& command) {
   check_gnuplot();
   warn_of(command.words);
   plot::draw(curve_figure(curves, kind, joined(note_of(command, kind), troubled(command.words))), path);
-  if (!command.output.quiet) say("picture {} ({} curve{})\n", shown(path, 400), curves.size(), curves.size() == 1 ? "" : "s");
+  if (!command.output.quiet) say("picture {} ({})\n", shown(path, 400), counted(curves.size(), "curve"));
   return exit_ok;
 }
 

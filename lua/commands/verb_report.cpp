@@ -1,6 +1,7 @@
 // erbs report DIR: a run, or a study, as one web page, DIR/report.html.
 #include <filesystem>
 
+#include "engine/base/text.h"
 #include "engine/record/folder/run_folder.h"
 #include "engine/record/report/report.h"
 #include "engine/record/report/study_page.h"
@@ -24,8 +25,7 @@ int report_study(const ReportCommand& command, const std::string& path) {
   std::size_t rows = 0;
   for (const StudyTable& table : study.tables) rows += table.table.rows();
   if (!command.output.quiet)
-    say("page {} ({}, {} row{}, {:.3g} MB)\n", shown(path, 400), study.kind, rows, rows == 1 ? "" : "s",
-        1e-6 * static_cast<double>(html.size()));
+    say("page {} ({}, {}, {:.3g} MB)\n", shown(path, 400), study.kind, counted(rows, "row"), 1e-6 * static_cast<double>(html.size()));
   return exit_ok;
 }
 
@@ -49,9 +49,8 @@ int verb_report(const ReportCommand& command) {
   const std::string html = report_html(run, page, failed || way.empty() ? "." : way.generic_string());
   write_whole(path, html);
   if (!command.output.quiet)
-    say("page {} ({} block{}, {} frame{}, {:.3g} MB)\n", shown(path, 400), run.run.scene.blocks.size(),
-        run.run.scene.blocks.size() == 1 ? "" : "s", run.run.frames.size(), run.run.frames.size() == 1 ? "" : "s",
-        1e-6 * static_cast<double>(html.size()));
+    say("page {} ({}, {}, {:.3g} MB)\n", shown(path, 400), counted(run.run.scene.blocks.size(), "block"),
+        counted(run.run.frames.size(), "frame"), 1e-6 * static_cast<double>(html.size()));
   return exit_ok;
 }
 

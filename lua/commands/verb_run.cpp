@@ -132,8 +132,8 @@ int threads_of(const Scene& scene, const RunCommand& command) {
   const int usable = usable_processors();
   if (command.threads <= 0) return scene.blocks.size() < 100 ? 1 : usable;
   if (command.threads > usable)
-    tell(stderr, fmt::format("warning: --threads {}: this process may use {} processor{}; it runs with as many threads", command.threads,
-                             usable, usable > 1 ? "s" : ""));
+    tell(stderr, fmt::format("warning: --threads {}: this process may use {}; it runs with as many threads", command.threads,
+                             counted(usable, "processor")));
   return std::min(command.threads, usable);
 }
 

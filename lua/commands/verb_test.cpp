@@ -106,8 +106,8 @@ int verb_test(const TestCommand& command) {
   print_table(rows);
   auto failed = std::count_if(rows.begin(), rows.end(), [](const Row& row) { return !row.passed; });
   const auto failed_cases = std::count_if(results.begin(), results.end(), [](const CaseResult& r) { return !r.passed(); });
-  say("{} expectations of {} cases: {} passed, {} failed ({} cases) in {}\n", rows.size(), cases.size(),
-      rows.size() - static_cast<size_t>(failed), failed, failed_cases, duration_text(wall));
+  say("{} of {}: {} passed, {} failed ({}) in {}\n", counted(rows.size(), "expectation"), counted(cases.size(), "case"),
+      rows.size() - static_cast<size_t>(failed), failed, counted(failed_cases, "case"), duration_text(wall));
   say("{}\n", summary_line(families_of(results)));
   if (command.bless) failed -= bless(results);
   std::fflush(stdout);

@@ -4,6 +4,7 @@
 
 #include <cstdio>
 
+#include "engine/base/text.h"
 #include "lua/program/progress.h"
 
 namespace erbs::lua {
@@ -16,10 +17,9 @@ void SweepPrinter::show(const study::Sweep::Progress& now) {
   const auto time = std::chrono::steady_clock::now();
   if (now.end || (!live_ && time - told_ < std::chrono::seconds(10))) return;
   told_ = time;
-  const std::string made = bisects_ ? fmt::format(" ({} run{})", now.runs, now.runs == 1 ? "" : "s") : "";
-  const std::string text = fmt::format("{} of {} {}{}, {} failed{}", now.done, now.points,
-                                       fmt::format("{}{}", bisects_ ? "point" : "run", now.points == 1 ? "" : "s"), made, now.failed,
-                                       now.left >= 0 ? ", about " + duration_text(now.left) + " left" : "");
+  const std::string made = bisects_ ? fmt::format(" ({})", counted(now.runs, "run")) : "";
+  const std::string text = fmt::format("{} of {}{}, {} failed{}", now.done, counted(now.points, bisects_ ? "point" : "run"), made,
+                                       now.failed, now.left >= 0 ? ", about " + duration_text(now.left) + " left" : "");
   if (live_) fmt::print(stderr, "\r\033[K{}", text);
   else fmt::print(stderr, "{}\n", text);
 }

@@ -201,8 +201,8 @@ std::string summary_line(const std::vector<Family>& families) {
     worst.push_back(f.failed > 0 ? fmt::format("{} {:.2g} ({} failed)", f.title, f.worst, f.failed)
                                  : fmt::format("{} {:.2g}", f.title, f.worst));
   }
-  return fmt::format("{} cases, {} expectations: {} passed, {} failed; worst error as a share of its tolerance: {}.", cases, expectations,
-                     expectations - failed, failed, fmt::join(worst, ", "));
+  return fmt::format("{}, {}: {} passed, {} failed; worst error as a share of its tolerance: {}.", counted(cases, "case"),
+                     counted(expectations, "expectation"), expectations - failed, failed, fmt::join(worst, ", "));
 }
 
 // A path as the target of a link: characters that would end the link are percent-encoded.

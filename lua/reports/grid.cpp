@@ -10,6 +10,7 @@
 
 #include "engine/base/hash.h"
 #include "engine/base/system/process.h"
+#include "engine/base/text.h"
 #include "engine/record/folder/manifest.h"
 #include "engine/scene/effects.h"
 #include "lua/program/progress.h"
@@ -250,10 +251,9 @@ Grid worst_of(const std::vector<Variant>& variants) {
 
 std::string summary_of(const Grid& grid) {
   const auto failed = std::count_if(grid.rows.begin(), grid.rows.end(), [](const Worst& w) { return !w.failed.empty(); });
-  std::string text = fmt::format("{} runs, {} invariants: {} hold on the whole grid, {} do not", grid.runs, grid.rows.size(),
-                                 grid.rows.size() - static_cast<size_t>(failed), failed);
-  if (!grid.refused.empty())
-    text += fmt::format("; {} run{} refused by a limit of the scene", grid.refused.size(), grid.refused.size() == 1 ? "" : "s");
+  std::string text = fmt::format("{}, {}: {} hold on the whole grid, {} do not", counted(grid.runs, "run"),
+                                 counted(grid.rows.size(), "invariant"), grid.rows.size() - static_cast<size_t>(failed), failed);
+  if (!grid.refused.empty()) text += fmt::format("; {} refused by a limit of the scene", counted(grid.refused.size(), "run"));
   if (grid.missing > 0) text += fmt::format("; {} runs are still missing", grid.missing);
   return text;
 }

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "engine/base/error.h"
+#include "engine/base/text.h"
 
 namespace erbs::lua {
 
@@ -10,7 +11,7 @@ std::string profile_text(const analysis::RunOutcome& outcome) {
   const Metrics& m = outcome.metrics;
   const Metrics::Wall& wall = m.wall_s;
   const auto percent = [&](double s) { return wall.total > 0 ? 100 * s / wall.total : 0; };
-  std::string out = fmt::format("time of this call, {} thread{}:\n", m.threads, m.threads > 1 ? "s" : "");
+  std::string out = fmt::format("time of this call, {}:\n", counted(m.threads, "thread"));
   const std::pair<const char*, double> rows[] = {{"setup", wall.setup},   {"joints", wall.joints},       {"contact", wall.contact},
                                                  {"search", wall.search}, {"integrate", wall.integrate}, {"ledger", wall.ledger},
                                                  {"record", wall.record}};

@@ -6,6 +6,7 @@
 #include <variant>
 
 #include "engine/analysis/diagnostics.h"
+#include "engine/base/text.h"
 #include "engine/record/format/json.h"
 #include "engine/record/performance/performance.h"
 #include "engine/record/results/collapse.h"
@@ -16,8 +17,6 @@
 namespace erbs::lua {
 namespace {
 
-std::string count_of(int n, const char* what) { return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s"); }
-
 // "3 blocks, 2 joints, 1 broken"; dry joints have no bond that could break.
 std::string size_text(const Scene& scene, const Json& metrics) {
   const auto has_strength = [](const auto& law) {
@@ -25,7 +24,7 @@ std::string size_text(const Scene& scene, const Json& metrics) {
   };
   const bool bonds =
       std::ranges::any_of(scene.joint_rules, [&](const JointRule& rule) { return !rule.none && std::visit(has_strength, rule.law); });
-  return count_of(metrics.value("blocks", 0), "block") + ", " + count_of(metrics.value("joints", 0), "joint") +
+  return counted(metrics.value("blocks", 0), "block") + ", " + counted(metrics.value("joints", 0), "joint") +
          (bonds ? fmt::format(", {} broken", metrics.value("joints_broken", 0)) : "");
 }
 

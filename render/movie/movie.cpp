@@ -232,9 +232,9 @@ bool film(const Run& run, const Show& show, const Scenery& scenery, const Movie&
   if (video && made == all) video->finish();  // a video is complete or absent
   const double wall = since(start);
   if (!movie.quiet)
-    fmt::print("{}{} {} ({} frame{} {}x{} in {:.1f} s, {:.3f} s each, {} at a time)\n", made == all ? "" : "interrupted; ",
+    fmt::print("{}{} {} ({} {}x{} in {:.1f} s, {:.3f} s each, {} at a time)\n", made == all ? "" : "interrupted; ",
                files.video.empty() || made < all ? "pictures:" : "video:",
-               files.video.empty() || made < all ? shown(files.frames.string(), 400) : shown(files.video, 400), made, made == 1 ? "" : "s",
+               files.video.empty() || made < all ? shown(files.frames.string(), 400) : shown(files.video, 400), counted(made, "frame"),
                movie.look.width, movie.look.height, wall, made ? wall / static_cast<double>(made) : 0, workers.count());
   return made == all;
 }

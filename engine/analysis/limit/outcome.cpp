@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "engine/base/count.h"
+#include "engine/base/text.h"
 #include "engine/model/state.h"
 
 namespace erbs::analysis {
@@ -167,9 +168,9 @@ LimitMechanism limit_mechanism(const LimitResult& r, const Model& m) {
   }
   if (momentum.norm() > 0.1 * size && size > 0) out.drift = momentum.normalized();
   out.kind = kind_of(r, m, out);
-  out.words = fmt::format("{}: {} of {} block{} move{}{}{}{}", out.kind, out.moving, r.problem.nbody, r.problem.nbody == 1 ? "" : "s",
-                          out.moving == 1 ? "s" : "", names(m, out.joints, Movement::hinge, "open"),
-                          names(m, out.joints, Movement::slide, "slide"), names(m, out.joints, Movement::part, "part"));
+  out.words = fmt::format("{}: {} of {} move{}{}{}{}", out.kind, out.moving, counted(r.problem.nbody, "block"), out.moving == 1 ? "s" : "",
+                          names(m, out.joints, Movement::hinge, "open"), names(m, out.joints, Movement::slide, "slide"),
+                          names(m, out.joints, Movement::part, "part"));
   return out;
 }
 

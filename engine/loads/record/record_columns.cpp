@@ -101,8 +101,7 @@ void check_widths(const RecordText& text, const RecordRows& rows) {
                          : commas ? "take out what is too much; for commas that are decimal marks say decimal = \"comma\" in the scene, "
                                     "or --decimal comma to erbs record"
                                   : "take out what is too much";
-    throw Error(fmt::format("{} number{} where the lines before have {}; {}", count, count == 1 ? "" : "s", width, remedy),
-                {text.path, rows.lines[r]});
+    throw Error(fmt::format("{} where the lines before have {}; {}", counted(count, "number"), width, remedy), {text.path, rows.lines[r]});
   }
 }
 

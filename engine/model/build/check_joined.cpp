@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "engine/base/count.h"
+#include "engine/base/text.h"
 #include "engine/geometry/separation.h"
 
 namespace erbs {
@@ -146,8 +147,8 @@ void check_gaps(const Scene& scene, const Interfaces& found, std::vector<std::st
     const auto tell = [&](const OffWidth& n, const std::string& why) {
       if (n.count == 0) return;
       warnings.push_back(
-          fmt::format("{}: {} joint{} of this rule bridge{} {}, {} (first between '{}' and '{}'); the law is that of the rule all the same",
-                      rule.place.text(), n.count, n.count > 1 ? "s" : "", n.count > 1 ? "" : "s", gaps_of(z(n.count), n.least, n.most), why,
+          fmt::format("{}: {} of this rule bridge{} {}, {} (first between '{}' and '{}'); the law is that of the rule all the same",
+                      rule.place.text(), counted(n.count, "joint"), n.count > 1 ? "" : "s", gaps_of(z(n.count), n.least, n.most), why,
                       scene.blocks[z(n.first->a)].name, scene.blocks[z(n.first->b)].name));
     };
     tell(narrow[r], fmt::format("not the {:g} mm it says", 1e3 * rule.thickness));
@@ -206,7 +207,7 @@ void check_floating(const Scene& scene, const Interfaces& found, const std::vect
       "{}: the {} blocks joined to '{}' have no way to the ground, no joint leads to a fixed block{}{}; bring them within a joint's "
       "thickness and tolerance, or say free = true where they are to fall",
       block.place.text(), size[z(first)], block.name, nearest_below(scene, root, first),
-      others > 0 ? fmt::format(" ({} more such group{})", others, others > 1 ? "s" : "") : ""));
+      others > 0 ? fmt::format(" ({})", counted(others, "more such group")) : ""));
 }
 
 }  // namespace

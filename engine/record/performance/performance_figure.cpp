@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "engine/base/error.h"
+#include "engine/base/text.h"
 #include "engine/base/units.h"
 #include "engine/record/plot/unit.h"
 
@@ -125,8 +126,8 @@ plot::Figure performance_figure(const Performance& p, const DesignSpectrum& spec
   plot::Figure figure{.width = 1120, .height = 720};
   figure.labels.push_back({title, "screen 0.5,0.965", "center font ',15'"});
   figure.labels.push_back(
-      {fmt::format("{}; shape at the {}, {} mass node{}, Gamma = {:.4g}", p.spectrum, p.shape == "peak" ? "peak" : "first state under load",
-                   p.nodes.nodes, p.nodes.nodes == 1 ? "" : "s", p.nodes.gamma),
+      {fmt::format("{}; shape at the {}, {}, Gamma = {:.4g}", p.spectrum, p.shape == "peak" ? "peak" : "first state under load",
+                   counted(p.nodes.nodes, "mass node"), p.nodes.gamma),
        "screen 0.5,0.925", "center font ',12'"});
   figure.panels.push_back(panel_of(figure, p, p.n2, spectrum, "N2, EN 1998-1 annex B: A = F*/m*", scale));
   figure.panels.push_back(panel_of(figure, p, p.mpp, spectrum, "mass-proportional pushover: A = V/M", scale));

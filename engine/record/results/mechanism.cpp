@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "engine/base/error.h"
+#include "engine/base/text.h"
 #include "engine/base/units.h"
 #include "engine/record/recorders/joint_condition.h"
 
@@ -108,7 +109,7 @@ std::string summary(const Mechanism& mechanism, const Model& model, int names) {
     const int n = count(mechanism, kind);
     if (n == 0) continue;
     if (!text.empty()) text += "; ";
-    text += fmt::format("{} joint{} {}", n, n == 1 ? "" : "s", past_tense(kind, n));
+    text += fmt::format("{} {}", counted(n, "joint"), past_tense(kind, n));
     std::vector<const MovedJoint*> of_kind;
     for (const MovedJoint& m : mechanism.moved)
       if (m.kind == kind) of_kind.push_back(&m);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/base/text.h"
 #include "engine/base/units.h"
 #include "engine/record/format/csv.h"
 #include "engine/record/format/json.h"
@@ -24,7 +25,7 @@ Fragility fragility_of(const Group& group, const std::string& method, const Frag
   out.words = words(out.fit, im.unit, im.factor);
   const auto say = [&](const std::string& what) { out.words += (out.words.empty() ? "" : "; ") + what; };
   const auto leave_out = [&](int n, const std::string& why) {
-    if (n > 0) say(fmt::format("{} run{} left out: {}", n, n == 1 ? "" : "s", why));
+    if (n > 0) say(fmt::format("{} left out: {}", counted(n, "run"), why));
   };
   leave_out(group.left_out, "no answer, see the reasons in runs.csv");
   leave_out(group.untold,

@@ -146,14 +146,14 @@ int verb_calibrate(const CalibrateCommand& command) {
   const bool live = isatty(STDERR_FILENO) != 0;
   if (!quiet && live)
     sweep.progress = [](const study::Sweep::Progress& now) {
-      fmt::print(stderr, "\r\033[K{} run{}, {} failed", now.runs, now.runs == 1 ? "" : "s", now.failed);
+      fmt::print(stderr, "\r\033[K{}, {} failed", counted(now.runs, "run"), now.failed);
     };
   const auto begin = std::chrono::steady_clock::now();
   const study::Calibrated result = calibrate(sweep, command.resume);
   const double wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   if (!quiet && live) fmt::print(stderr, "\r\033[K");
   if (result.interrupted) {
-    tell(stderr, fmt::format("interrupted after {} run{}; continue with --resume", result.runs, result.runs == 1 ? "" : "s"));
+    tell(stderr, fmt::format("interrupted after {}; continue with --resume", counted(result.runs, "run")));
     return exit_interrupted;
   }
   write_json(sweep.directory + "/" + study::calibration_file, json_of(sweep, result));
@@ -162,7 +162,7 @@ int verb_calibrate(const CalibrateCommand& command) {
     tell(stderr, fmt::format("warning: {} of {} runs do not give all targets and are left out of the fit; the first, {}; see {}/{}",
                              result.discarded, result.runs, result.first_discarded, sweep.directory, study::calibration_table));
   if (quiet) return exit_ok;
-  say("{}: {} runs in {}\n", study.name, result.runs, duration_text(wall));
+  say("{}: {} in {}\n", study.name, counted(result.runs, "run"), duration_text(wall));
   for (std::size_t i = 0; i < result.stages.size(); ++i) print_stage(sweep, i, result.stages[i]);
   print_targets(sweep, result);
   say("{}/{}\n", sweep.directory, study::calibration_file);

@@ -137,7 +137,7 @@ int write_job(const SweepStudy& study, const SweepCommand& command) {
   fs::create_directories(directory + "/job_logs");
   write_text_atomically(directory + "/job.sh", text);
   ::chmod((directory + "/job.sh").c_str(), 0755);
-  say("{} points in {} tasks: sbatch {}\n", points, tasks, shell_word(directory + "/job.sh"));
+  say("{} in {}: sbatch {}\n", counted(points, "point"), counted(tasks, "task"), shell_word(directory + "/job.sh"));
   return exit_ok;
 }
 
@@ -183,8 +183,8 @@ int finish(const SweepStudy& study, const study::Swept& swept, const study::Rank
   if (!quiet && swept.inherited > 0)
     tell(stderr, fmt::format("{} points of processes that had died were taken up and finished", swept.inherited));
   if (!quiet) {
-    say("{}: {} of {} point{} done, {} failed; {} run{} here in {}\n{}\n", study.name, swept.done, swept.points,
-        swept.points == 1 ? "" : "s", swept.failed, swept.runs, swept.runs == 1 ? "" : "s", duration_text(wall), results);
+    say("{}: {} of {} done, {} failed; {} here in {}\n{}\n", study.name, swept.done, counted(swept.points, "point"), swept.failed,
+        counted(swept.runs, "run"), duration_text(wall), results);
     if (!swept.complete()) say("other processes work on the rest; --resume collects it\n");
   }
   return swept.failed > 0 ? exit_numbers : exit_ok;

@@ -36,7 +36,7 @@ void add_points(std::vector<study::Setting>& all, bool fine, bool all_rules) {
       if (side > 3 && name == "gauss") continue;      // exact in bending from two points on: more points gain nothing
       const int n = side * side;
       all.push_back({fmt::format("points, {}", rule),
-                     fmt::format("{} point{}, {}", n, n > 1 ? "s" : "", rule),
+                     fmt::format("{}, {}", counted(n, "point"), rule),
                      fmt::format("joint {{ rule = \"{}\", points = {} }}", rule, n),
                      {"--rule", rule, "--points", std::to_string(n)},
                      name == "trapezoid" ? 1.0 / (side - 1) : 1.0 / side});  // the error is a power of this size

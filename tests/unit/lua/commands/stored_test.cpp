@@ -104,7 +104,7 @@ TEST_CASE("a changed run is not compared with what is stored", "[stored][program
   const std::string text = leaning_pier(0.8, expectations + "\nparam(\"x\", 1, \"\")\nexpect(\"blocks\", 6, { abs = 0 })");
   REQUIRE(bench.test(text, {"--bless"}) == 0);
   CHECK(bench.test(text, {"-D", "x=2"}) == 0);
-  CHECK(contains(bench.said, "1 expectations of 1 cases"));
+  CHECK(contains(bench.said, "1 expectation of 1 case"));
   CHECK(bench.run(text, {"--dt-fraction", "0.5"}) == 0);
   CHECK(contains(bench.said, "expectations: 1 passed"));
 }
