@@ -121,11 +121,11 @@ void Run::begin() {
   return_free_memory();
   if (!resume)
     for (const std::string& note : options_.notes) writer_->log(note);
-  for (const std::string& w : run_.warnings) writer_->log("warning: " + w);
+  for (const std::string& w : run_.warnings) writer_->log_once("warning: " + w);
   if (!resume && collapse_.under_gravity)
     writer_->log(fmt::format("the structure does not stand under {}: {:.3g} % of the mass; {}", weight_at_start(run_.model),
                              100 * falling_share(run_), summary(collapse_.mechanism, run_.model, 1000)));
-  for (const std::string& note : run_.notes) writer_->log(note);
+  for (const std::string& note : run_.notes) writer_->log_once(note);
   out_.warnings = run_.warnings;
   double low = std::numeric_limits<double>::infinity(), weights = 0, moments = 0;
   for (int b = 0; b < run_.model.nblock; ++b) {

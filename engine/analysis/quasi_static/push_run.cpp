@@ -115,8 +115,8 @@ void PushRun::begin() {
   else curve_.emplace(curve, curve_columns(push_));
   so_far_.curve_rows = curve_->rows(), so_far_.curve_sum = curve_->sum();
   for (const std::string& note : resume ? std::vector<std::string>{} : options_.notes) writer_->log(note);
-  for (const std::string& w : run_.warnings) writer_->log("warning: " + w);
-  for (const std::string& note : run_.notes) writer_->log(note);
+  for (const std::string& w : run_.warnings) writer_->log_once("warning: " + w);
+  for (const std::string& note : run_.notes) writer_->log_once(note);
   out_.warnings = run_.warnings;
   setup_ = seconds() - born_;
   solve_start_ = last_save_ = seconds();

@@ -143,6 +143,14 @@ void RunWriter::log(std::string_view line) {
   if (!out) throw WriteError("cannot be written", {run_file(dir_, "log.txt"), 0});
 }
 
+void RunWriter::log_once(std::string_view line) {
+  std::ifstream in(run_file(dir_, "log.txt"));
+  const std::string text = printable(line);
+  for (std::string known; std::getline(in, known);)
+    if (known == text) return;
+  log(line);
+}
+
 WriterProgress RunWriter::progress() {
   histories_.sync();
   energy_.sync();

@@ -41,7 +41,8 @@ class RunWriter {
   void frame(const Snapshot& snapshot);  // to motion.h5
   // Adds a row to events.csv: event ("crack", "break", "fall", "collapse", ...), block or joint, value with unit.
   void event(double t, std::string_view what, std::string_view name, double value, std::string_view unit);
-  void log(std::string_view line);  // to log.txt, flushed
+  void log(std::string_view line);       // to log.txt, flushed
+  void log_once(std::string_view line);  // unless it is there already, from the run that this one continues
 
   WriterProgress progress();  // flushes and synchronises first; a checkpoint may rely on the result
   void flush();

@@ -80,6 +80,18 @@ TEST_CASE("a run stopped by --until ends with 3, and --resume ends as one run wo
   CHECK(read_json(bench.out() + "/metrics.json")["state_hash"] == whole["state_hash"]);
 }
 
+TEST_CASE("the log of a run that was stopped twice has each warning once", "[program][resume]") {
+  Bench bench;
+  const std::string scene = falling_brick + "joint{ between = { 'brick', 'brick' }, law = dry{ kn = 1e9, mu = .6 } }\n";
+  CHECK(bench.run(scene, {"--until", "0.03"}) == 3);
+  CHECK(bench.run(scene, {"--resume", "--until", "0.06"}) == 3);
+  CHECK(bench.run(scene, {"--resume"}) == 0);
+  const std::string log = text_of(bench.out() + "/log.txt");
+  const auto at = log.find("joins nothing");
+  REQUIRE(at != std::string::npos);
+  CHECK(log.find("joins nothing", at + 1) == std::string::npos);
+}
+
 TEST_CASE("a stopped run says how to go on, and needs nothing but its folder, from wherever it is called", "[program][resume]") {
   Bench bench;
   const std::vector<std::string> options{"-D", "duration=0.2", "--set", "output_dt=4*ms", "--no-figures"};
