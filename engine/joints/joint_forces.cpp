@@ -52,6 +52,7 @@ void joint_by_points(const Model& m, State& s, int j, const double faces[6], dou
     past.interlock = scalar::interlock_of(interlock_step(m, s), joint.hop.time, joint.hop.loan);
   std::vector<PointHistory> before_it;
   const bool damped = joint.viscous_cracked > 0 && !intact;
+  if (damped && s.time.last_dt > 0) past.rate = joint.viscous_cracked / s.time.last_dt;
   if (damped) before_it.assign(past.point, past.point + joint.type->points);
   std::vector<double> limit(damped ? z(joint.type->points) : 0);
   const bool still = respond(m, j, intact, memory.gap, gap, past, resultant, e, damped ? limit.data() : nullptr);

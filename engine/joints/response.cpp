@@ -86,6 +86,12 @@ Pressed compression(const Model& m, const Joint& joint, const double* gap, doubl
   return {kn * p.p, kn * p.s, kn * p.t, 0.5 * kn * p.square};
 }
 
+// Rate of the dashpots of the closed part from the force `then` to `now` (N): they may not pull.
+double compression_rate(double rate, double now, double then) {
+  const double pull = rate * (then - now);
+  return pull > now ? rate * now / pull : rate;
+}
+
 // The gap as a plane over s, t.
 std::array<double, 3> gap_plane(const double* gap) { return {gap[2], -gap[4], gap[3]}; }
 
@@ -294,7 +300,9 @@ bool respond(const Model& m, int j, bool intact, const double* gap_before, const
   resultant[4] = closed.s;
   energy.elastic += closed.energy;
   if (intact) energy.fracture += change_of_form(joint, gap_before, gap);
-  distribute_pressure(m, joint, crushed, gap, law.kn, closed.force, pressure.data());
+  const double then = past.rate > 0 ? compression(m, joint, crushed, gap_before, law.kn).force : 0;
+  const double pressing = std::max(0.0, closed.force - compression_rate(past.rate, closed.force, then) * (then - closed.force));
+  distribute_pressure(m, joint, crushed, gap, law.kn, past.rate > 0 ? pressing : closed.force, pressure.data());
   const bool slow = slides_slowly(past.interlock, gap, gap_before, joint.type->radius);
   for (int i = 0; i < joint.type->points; ++i) {
     PointHistory& h = past.point[i];
@@ -308,8 +316,9 @@ bool respond(const Model& m, int j, bool intact, const double* gap_before, const
       sigma = damage_by_opening(law, bond, holds, widest(m, cell, gap, g.n), g.n);
       if (law.closing_ultimate > 0) damage_by_closing(law, bond, holds, widest(m, cell, gap, g.n, -1), sigma);
     }
-    const double weight = point[i].weight, stress = pressure[std::size_t(i)] / weight,
-                 held = interlocked_stress(past.interlock, h.mean_pressure, h.lent, g.n, stress, slow);
+    const double weight = point[i].weight, stress = pressure[std::size_t(i)] / weight;
+    if (intact && !law.has_bond()) h.mean_pressure = stress;  // under which its asperities have been interlocked so far
+    const double held = interlocked_stress(past.interlock, h.mean_pressure, h.lent, g.n, stress, slow);
     const InPlane<double> tau = shear(law, point[i], weight * held, sigma, gap_before, g, bond, h, energy, limit);
     h.lent = lent_after(
         past.interlock, h.lent, stress, held,
@@ -362,7 +371,7 @@ void viscous_response(const Model& m, int j, const double* gap_before, const dou
   }
   const CrushedFace* crushed = law.crushes() ? after.crushed : nullptr;
   const Pressed now = compression(m, joint, crushed, gap, law.kn), then = compression(m, joint, crushed, gap_before, law.kn);
-  const double pull = rate * (then.force - now.force), share = pull > now.force ? rate * now.force / pull : rate;
+  const double share = compression_rate(rate, now.force, then.force);
   resultant[2] += share * (then.force - now.force);
   resultant[3] += share * (then.t - now.t);
   resultant[4] -= share * (then.s - now.s);

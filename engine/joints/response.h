@@ -19,6 +19,7 @@ struct JointPast {
   CrushedFace* crushed;                 // null without a plateau in compression
   scalar::Interlock<double> interlock;  // default: no interlock
   StiffnessShare share;
+  double rate = 0;  // b / dt of the dashpots, whose pressure friction follows too
 };
 JointPast past_of(const Model& model, State& state, int j);
 

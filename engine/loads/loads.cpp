@@ -1,5 +1,7 @@
 #include "engine/loads/loads.h"
 
+#include <limits>
+
 namespace erbs {
 
 double value(const Wave& wave, double t) {
@@ -20,6 +22,23 @@ double mean(const Wave& wave, double t0, double t1) {
 
 double end_time(const Wave& wave) {
   return std::visit([](const auto& w) { return end_time(w); }, wave);
+}
+
+double following_step(const Wave& wave) {
+  constexpr double share = 0.05, none = std::numeric_limits<double>::infinity();
+  constexpr std::size_t swings = 10;  // points; fewer are ramps and leaps
+  const auto of = [](const Polyline& line) {
+    const std::size_t n = line.times.size();
+    return n < swings ? none : (line.times.back() - line.times.front()) / double(n - 1);
+  };
+  return std::visit(
+      [&](const auto& w) {
+        if constexpr (requires { w.frequency; }) return share / w.frequency;
+        else if constexpr (requires { w.line; }) return of(w.line);
+        else if constexpr (requires { w.acceleration; }) return of(w.acceleration);
+        else return none;
+      },
+      wave);
 }
 
 double resolution(const Wave& wave) {

@@ -31,7 +31,10 @@ std::vector<int> blocks_past_ground(const Model& m, const State& s) {
   if (!(g > 0) || std::ranges::find(m.kind, Kind::fixed) == m.kind.end()) return {};
   const Vec3 up = -m.gravity / g;
   double low = std::numeric_limits<double>::infinity(), high = -low;
-  for (int b = 0; b < m.nblock; ++b) low = std::min(low, up.dot(m.rest[z(b)])), high = std::max(high, up.dot(m.rest[z(b)]));
+  for (int b = 0; b < m.nblock; ++b) {
+    const double at = up.dot(m.rest[z(b)]), half = 0.5 * m.smallest_edge[z(b)];  // blocks may all lie at one height
+    low = std::min(low, at - half), high = std::max(high, at + half);
+  }
   std::vector<int> out;
   for (int b = 0; b < m.nblock; ++b)
     if (m.kind[z(b)] == Kind::moving && up.dot(place_of(m, s, b)) < low - (high - low)) out.push_back(b);

@@ -117,6 +117,7 @@ struct ContactState {
 struct KernelCache {
   BlockVec3 ref_u;  // reference pose: the pose at its last update
   BlockQuat ref_q;
+  double lazy_rotation = 0;              // rad, of a block until it is updated again; 0: as the model says (Solver::refine_references)
   std::vector<VectorPack<6>> increment;  // m, rad, increment of displacement and rotation since that update (kinematics.h)
   Rows pose_row;                         // the same as one cache line of 8 doubles per block, for kernels that read rows
   Rows wrench;  // rows of 8 doubles: force, moment on a block from one joint end (Model::wrench_row_a, wrench_row_b)

@@ -22,7 +22,7 @@ void each(S& state, F&& f) {
   auto& [island, grounded, joined, unjoined, loose] = topology;
   auto& [pack, slot, stage, memory, history, crushed, share, viscous] = joints;
   auto& [list, separation] = contacts;
-  auto& [ref_u, ref_q, increment, pose_row, wrench, owner_sum, neighbour_force] = cache;
+  auto& [ref_u, ref_q, lazy_rotation, increment, pose_row, wrench, owner_sum, neighbour_force] = cache;
   auto& [gravity_before, moment_before] = tilt;
   auto& [joints_broken, max_penetration_relative, momentum_residual] = observed;
   f("step", step, Part::carried);
@@ -38,6 +38,7 @@ void each(S& state, F&& f) {
   f("w", w, Part::carried);
   f("ref_u", ref_u, Part::carried);
   f("ref_q", ref_q, Part::carried);
+  f("lazy_rotation", lazy_rotation, Part::carried);
   f("pose_row", pose_row, Part::carried);
   f("increment", increment, Part::carried);
   f("island", island, Part::carried);

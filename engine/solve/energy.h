@@ -26,6 +26,7 @@ class Ledger {
 
   // True if the ledger closes at this step without being asked to. `contacts`: some are active, whose energy costs as much as their forces.
   bool due(bool contacts);
+  bool is_due() const { return due_; }  // in this step
   // Adds the sums of all chunks, which clears them, then closes. `elastic`: J, of contacts. `kinetic`: J, of their levels
   // (`Contacts::kinetic_correction`). `events`: something may open or close.
   void close(std::span<JointSums> joints, std::span<JointSums> cracked, std::span<BlockSums> blocks, double elastic, double kinetic,

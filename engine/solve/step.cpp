@@ -48,6 +48,7 @@ Solver::Solver(const Model& model, State& state, const StepRange& range, int thr
       block_shares_(threads),
       team_(threads, [this](int thread) { work(thread); }) {
   if (state.time.dt_target == 0) state.time.dt_target = state.time.dt;
+  if (state.cache.lazy_rotation == 0) state.cache.lazy_rotation = model.analysis.lazy_rotation;
   note_sleep();
   block_sums_.resize((constants_.size() + block_grain - 1) / block_grain);
   if (model.analysis.solver == "sequential") {
@@ -233,8 +234,22 @@ void Solver::apply_prescribed_motions() {
     s.pose.q[z(b)] = at;
     set_pose_row(s, b);
     joints_.cracked().copy_pose(b);
-    if (rotation_since(at, s.cache.ref_q[z(b)]).norm() > m.analysis.lazy_rotation) block_sums_.front().outdated = true;
+    if (rotation_since(at, s.cache.ref_q[z(b)]).norm() > s.cache.lazy_rotation) block_sums_.front().outdated = true;
   }
+}
+
+// The expansion of intact joints about their reference poses errs in its third order, by the force of a joint. That is nothing beside what
+// has moved, unless a structure sways little under a large load: then an elastic ledger asks for closer poses. Once something may open
+// or close, its tolerance is a thousand times as large.
+void Solver::refine_references() {
+  constexpr double coarsest = 1e-4, finest = 1e-7;  // rad: beyond the first it is coarse on purpose
+  constexpr double visible = 3e-8;                  // residual; an elastic ledger may have 1e-6, and half a wave later it would
+  double& rotation = state_.cache.lazy_rotation;
+  const double asked = model_.analysis.lazy_rotation, before = rotation;
+  if (!ledger_.is_due() || asked > coarsest) return;
+  if (joints_.any_cracked() || has_contacts_) rotation = asked;
+  else if (state_.energy.residual_relative > visible) rotation = std::min(rotation, finest);
+  if (rotation != before) note_sleep();
 }
 
 void Solver::close_step(const SamplePlan& plan) {
@@ -252,6 +267,7 @@ void Solver::close_step(const SamplePlan& plan) {
     const double elastic = has_contacts_ ? contacts_.sums().elastic() : 0,
                  kinetic = has_contacts_ ? contacts_.sums().kinetic_correction() : 0;
     ledger_.close(joints_.sums(), joints_.cracked_sums(), block_sums_, elastic, kinetic, joints_.any_cracked() || has_contacts_);
+    refine_references();
     joints_.store();
   }
   contacts_.former_joints().book_release();

@@ -95,6 +95,7 @@ class Solver {
   void note_sleep();
   void apply_prescribed_motions();
   void check_momentum();
+  void refine_references();
   // time_step.cpp
   enum class Part { all, fast, loose };  // of the moving blocks (`ContactBound::divide`)
   double next_dt(double now, double allowed, double event, Part part, int steps, int& since_limited) const;

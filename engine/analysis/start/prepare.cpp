@@ -45,6 +45,14 @@ double stability_limit(const Analysis& a, const StepBounds& b) {
   return a.solver == "sequential" && a.variant == "literal" ? std::max(b.critical, std::sqrt(2.0) * b.block) : b.critical;
 }
 
+// s, the longest step that follows the loads. A step takes their mean over its length, so that one as long as a period sees another load.
+double step_of_loads(const Scene& scene) {
+  double least = std::numeric_limits<double>::infinity();
+  if (!scene.push.quasi_static())
+    for (const Load& load : scene.loads) least = std::min(least, following_step(load.wave));
+  return least;
+}
+
 void choose_dt(const Scene& scene, Prepared& p, bool allow_unstable) {
   const Analysis& a = scene.analysis;
   const StepBounds& b = p.bounds;
@@ -81,6 +89,11 @@ void choose_dt(const Scene& scene, Prepared& p, bool allow_unstable) {
       p.dt_rule = said("2 / omega_max once joints have cracked, stiffer in bending than their points or damped", b.cracked, share);
     }
   }
+  const double by_loads = a.dt == 0 && a.dt_rule == Analysis{}.dt_rule ? step_of_loads(scene) : std::numeric_limits<double>::infinity();
+  if (by_loads < dt) {
+    dt = by_loads;
+    p.dt_rule = "a twentieth of the shortest period of the loads, or an interval of the points that give one";
+  }
   if ((!(dt > 0) || !std::isfinite(dt)) &&
       std::none_of(p.model.kind.begin(), p.model.kind.end(), [](Kind kind) { return kind == Kind::moving; }))
     throw Error("every block is fixed, so that nothing moves; leave fixed = true out of those that shall", a.place);
@@ -116,7 +129,7 @@ void choose_dt(const Scene& scene, Prepared& p, bool allow_unstable) {
   // A step derived from joints may grow once they are gone, as far as contacts allow (`ContactBound`), at most to that of a block on one
   // whole face: `debris_bound` counts the face four times.
   if (a.dt == 0 && jointed && a.solver != "sequential" && a.dt_rule == Analysis{}.dt_rule)
-    p.range.longest = std::max(dt, 2 * a.dt_fraction * debris_bound(p.model));
+    p.range.longest = std::max(dt, std::min(by_loads, 2 * a.dt_fraction * debris_bound(p.model)));
 }
 
 // Enforces the scene's own limit of use: a run beyond it is refused with the scene's reason.

@@ -172,13 +172,16 @@ double duration_of(const Scene& scene, const Prepared& p, const std::vector<std:
   return frequency > 0 ? std::max(ramp_seconds, slow_ramp / frequency) : ramp_seconds;
 }
 
-// What a ramp leaves of the state: poses and what joints and contacts remember. Velocities and time are those of before it.
+// What a ramp leaves of the state: poses and what joints and contacts remember. Velocities and time are those of before it. Joints between
+// blocks that the ramp holds have no forces in it, so that its sum of forces says nothing.
 void begin_anew(const Model& m, const State& before, State& s) {
   s.motion.v = before.motion.v, s.motion.spin_momentum = before.motion.spin_momentum;
   s.motion.w.assign(s.motion.w.size(), Vec3::Zero());
   s.time = TimeStep{};
   s.time.dt = before.time.dt, s.time.dt_target = before.time.dt_target;
   s.energy = Energy{};
+  s.cache.lazy_rotation = before.cache.lazy_rotation;
+  s.observed.momentum_residual = before.observed.momentum_residual;
   s.contacts.list.bound_updated_at = 0;
   find_islands(m, s);
 }

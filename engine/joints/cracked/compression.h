@@ -107,7 +107,20 @@ ERBS_INLINE Compression compression(double kn, Pack share, const CrackedShape& s
   return {share * force, share * ms, share * mt, share * energy};
 }
 
-// Adds the compression to the resultant, and the dashpots of the closed part: the change of its pressure, which may not pull.
+// Rate of the dashpots of the closed part, which may not pull.
+ERBS_INLINE Pack compression_rate(const Compression& now, const Compression& then, const Cracking& c) {
+  const Pack pull = c.rate * (then.force - now.force);
+  const Mask past = pull > now.force;
+  return any(past) ? select(past, c.rate * (now.force / nonzero(pull)), c.rate) : c.rate;
+}
+
+// The force (N) that presses the faces, which friction follows: that of the springs and of their dashpots.
+template <bool damped>
+ERBS_INLINE Pack pressing_force(const Compression& now, const Compression& then, const Cracking& c) {
+  return damped ? max(now.force - compression_rate(now, then, c) * (then.force - now.force), 0) : now.force;
+}
+
+// Adds the compression to the resultant, and the dashpots of the closed part: the change of its pressure.
 template <bool damped>
 ERBS_INLINE void add_compression(const Compression& now, const Compression& then, Cracking& c) {
   c.resultant[2] -= now.force;
@@ -115,10 +128,7 @@ ERBS_INLINE void add_compression(const Compression& now, const Compression& then
   c.resultant[4] += now.ms;
   c.stored += now.energy;
   if (!damped) return;
-  const Pack pull = c.rate * (then.force - now.force);
-  const Mask past = pull > now.force;
-  Pack rate = c.rate;
-  if (any(past)) rate = select(past, rate * (now.force / nonzero(pull)), rate);
+  const Pack rate = compression_rate(now, then, c);
   c.drag[2] += rate * (then.force - now.force);
   c.drag[3] += rate * (then.mt - now.mt);
   c.drag[4] -= rate * (then.ms - now.ms);
@@ -182,7 +192,7 @@ ERBS_INLINE void assign_to_deepest(const CrackedShape& shape, const Pack* gap, M
   }
 }
 
-// Distributes the compression `now` of the whole face by the depths of its points, which `depth` receives. A point's share (N) is the
+// Distributes the pressing force of the whole face by the depths of its points, which `depth` receives. A point's share (N) is the
 // returned scale times its depth and weight.
 template <class Face, bool damped>
 ERBS_INLINE Pack compress(const PointLaw& law, const CrackedShape& shape, Cracking& c, Compression now, Compression then, Pack* depth) {
@@ -200,7 +210,8 @@ ERBS_INLINE Pack compress(const PointLaw& law, const CrackedShape& shape, Cracki
   const Mask lone = (sum <= 0) & (now.force > 0);
   if (any(lone))
     assign_to_deepest(shape, c.gap, lone, depth), c.debonded_rate = select(lone, Pack(0), c.rate);  // only this share presses it
-  return select(sum > 0, now.force / nonzero(sum), now.force);
+  const Pack force = pressing_force<damped>(now, then, c);
+  return select(sum > 0, force / nonzero(sum), force);
 }
 
 // `interlocked_stress()` of a point of the pack, with its mean pressure in memory.

@@ -44,10 +44,10 @@ struct StickState {
   Pack s, t, rotation, stored;  // N; N m; J
 };
 
-// `closed_by`: m, least closing of a face that is closed all over.
+// `closed_by`: m, least closing of a face that is closed all over. `pressed`: the force that presses it over that of its springs.
 template <bool damped>
 ERBS_INLINE StickState try_stick(const PointLaw& law, double mu, const CrackedShape& shape, const SlipPack* slip, Pack closed_by,
-                                 MeanSlipPack& mean_slip, Cracking& c) {
+                                 Pack pressed, MeanSlipPack& mean_slip, Cracking& c) {
   StickState out{};
   const Mask closed = (closed_by > 0) & !(load(mean_slip.lent) > 0);
   if (!any(closed)) return out;
@@ -55,7 +55,7 @@ ERBS_INLINE StickState try_stick(const PointLaw& law, double mu, const CrackedSh
   const Pack s = c.gap[0] - load(mean_slip.s), t = c.gap[1] - load(mean_slip.t), rotation = c.gap[5] - load(mean_slip.rotation),
              radius = load(shape.face->radius);
   const Pack ds = c.gap[0] - c.gap_before[0], dt = c.gap[1] - c.gap_before[1], rotated = c.gap[5] - c.gap_before[5];
-  Pack room = mu * c.kn * closed_by - c.ks * (abs(rotation) * radius + load(mean_slip.apart));
+  Pack room = mu * c.kn * closed_by * min(pressed, 1) - c.ks * (abs(rotation) * radius + load(mean_slip.apart));
   if (damped) room -= c.ks * c.rate * (abs(ds) + abs(dt) + abs(rotated) * radius);
   out.mask = closed & (room > 0) & (c.ks * c.ks * (s * s + t * t) < room * room);
   const Pack k = c.share_s * load(shape.face->stiffness[0]), twist = c.share_s * load(shape.face->stiffness[5]);
@@ -188,14 +188,17 @@ static bool friction_pack(const PointLaw& law, const CrackedShape& shape, Cracke
   Compression pressed = compression(law.kn, c.share_n, shape, c.gap);
   if constexpr (Face::lifts) lift<Face>(law, shape, lane, c, pressed);
   const Pack closed_by = -c.gap[2] - (abs(c.gap[3]) * load(shape.face->half_t) + abs(c.gap[4]) * load(shape.face->half_s));
-  const StickState stick = crushes ? StickState{} : try_stick<damped>(law, mu, shape, slip, closed_by, mean_slip, c);
+  const Compression then = before<Face, damped>(law, shape, lane, c);
+  const Pack force = pressing_force<damped>(pressed, then, c);
+  const StickState stick =
+      crushes ? StickState{} : try_stick<damped>(law, mu, shape, slip, closed_by, force / nonzero(pressed.force), mean_slip, c);
   if (!any(Mask::of_bits(shape.used) & !stick.mask)) {
-    add_compression<damped>(pressed, before<Face, damped>(law, shape, lane, c), c);
+    add_compression<damped>(pressed, then, c);
     c.resultant[0] = stick.s, c.resultant[1] = stick.t, c.resultant[5] = stick.rotation;
     c.stored += stick.stored;
-    if (c.lock.updates) update_mean_pressure(shape, pressed.force, slip, c);
+    if (c.lock.updates) update_mean_pressure(shape, force, slip, c);
   } else if (crushes || any(pressed.force > 0) || any(load(lane.stored) > 0)) {
-    const Pack scale = compress<Face, damped>(law, shape, c, pressed, before<Face, damped>(law, shape, lane, c), depth);
+    const Pack scale = compress<Face, damped>(law, shape, c, pressed, then, depth);
     friction_at_points<damped>(mu, scale, depth, shape, slip, mean_slip, stick, c);
   } else {
     const Mask slow = slides_slowly(shape, c);

@@ -150,7 +150,7 @@ void set_rotation_limits(const Model& m, const State& s, std::vector<BlockConsta
     for (const int b : {m.joint[z(j)].a, m.joint[z(j)].b}) {
       BlockConstants& c = constants[z(b / pack_size)];
       c.carried = true;
-      if (c.moving[b % pack_size] > 0) c.rotation_limit[b % pack_size] = m.analysis.lazy_rotation * m.analysis.lazy_rotation;
+      if (c.moving[b % pack_size] > 0) c.rotation_limit[b % pack_size] = s.cache.lazy_rotation * s.cache.lazy_rotation;
     }
   }
 }

@@ -50,7 +50,7 @@ bool take_outdated_poses(const Model& m, State& s, std::vector<std::uint8_t>& ou
   outdated.assign(z(m.nblock) + 1, 0);
   for (int j = 0; j < m.njoint; ++j)  // blocks with an intact joint; other joints are evaluated at the present poses
     if (s.joints.stage[z(j)] == JointStage::intact) outdated[z(m.joint[z(j)].a)] = outdated[z(m.joint[z(j)].b)] = 1;
-  const double limit = m.analysis.lazy_rotation * m.analysis.lazy_rotation;
+  const double limit = s.cache.lazy_rotation * s.cache.lazy_rotation;
   bool past = false;
   for (int b = 0; b < m.nblock; ++b) {
     double square = 0;

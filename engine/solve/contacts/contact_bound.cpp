@@ -179,8 +179,9 @@ void ContactBound::divide(const ContactForces& forces, const FormerJoints& forme
 // long as they are few. In a blow the forces on the other side of a struck block rise as well.
 void ContactBound::hasten(const ContactForces& forces) {
   constexpr double few_blocks = 0.1;
+  constexpr int at_least = 8;  // a fragment may strike several bricks at once
   PairList& list = state_.contacts.list;
-  int room = int(few_blocks * double(list.fast.size())) - int(std::ranges::count(list.fast, hastened));
+  int room = std::max(at_least, int(few_blocks * double(list.fast.size()))) - int(std::ranges::count(list.fast, hastened));
   const auto hasten = [&](int b) {
     if (room > 0 && model_.kind[z(b)] == Kind::moving && !list.fast[z(b)]) list.fast[z(b)] = hastened, --room;
   };

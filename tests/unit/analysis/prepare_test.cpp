@@ -239,3 +239,23 @@ TEST_CASE("a scene so far from the origin that pictures of it are coarse is told
   CHECK_FALSE(told(1000));
   CHECK(told(20000));  // steps of 2.4 mm
 }
+
+TEST_CASE("the step follows loads that are faster than the structure", "[analysis]") {
+  const auto step = [](const std::string& more) {
+    lua::Script script(lua::quiet());
+    const Scene scene = script.load_text(R"(
+      material { name = "stone", density = 2000 }
+      box { name = "floor", size = { 2, 2, .1 }, at = { -1, -1, -.1 }, fixed = true }
+      box { name = "b", size = { 1, 1, 1 }, at = { -.5, -.5, 0 } }
+      joint { law = mortar { kn = 8e6, ft = 1e9, c = 1e9, mu = .7 } }
+      analysis { duration = 1 }
+    )" + more,
+                                         "scene.lua", {});
+    return prepare(scene, false).state.time.dt;
+  };
+  const double own = step("");
+  CHECK(own > 0.005);
+  CHECK(step("ground_motion { direction = 'x', wave = sine { amplitude = 1, frequency = 60 } }") == Approx(1.0 / 1200));
+  CHECK(step("ground_motion { direction = 'x', wave = sine { amplitude = 1, frequency = 1 } }") == own);
+  CHECK(step("ground_motion { direction = 'x', wave = table_wave { times = { 0, 1e-6, 1 }, values = { 0, 1, 1 } } }") == own);  // a leap
+}

@@ -168,3 +168,18 @@ TEST_CASE("a machine whose structure comes apart brackets the load there", "[pus
     CHECK(attempts < 60);
   }
 }
+
+// The shear triplet: the middle brick is pushed out between two that are held. On paper it yields at 2 c A, less its weight.
+TEST_CASE("a push acts on blocks that all lie at one height", "[push]") {
+  const std::string triplet = R"(
+    material { name = "brick", density = 1800 }
+    box { name = "left", size = { .1, .25, .1 }, at = { -.1, 0, 0 }, fixed = true }
+    box { name = "mid", size = { .1, .25, .1 }, at = { 0, 0, 0 } }
+    box { name = "right", size = { .1, .25, .1 }, at = { .1, 0, 0 }, fixed = true }
+    joint { law = mortar { kn = 1e11, ft = .2 * MPa, c = .3 * MPa, mu = .7 } }
+    analysis { kind = "pushover", pattern = { { block = "mid", force = { 0, 0, -1000 } } }, up_to = 100, step = 1 }
+  )";
+  const test::Scratch dir("push_triplet");
+  const double weight = 1800 * 0.1 * 0.25 * 0.1 * 9.81, paper = (2 * 0.3e6 * 0.1 * 0.25 - weight) / 1000;
+  CHECK(push(triplet, dir.path).metrics.capacity->peak.multiplier == Approx(paper).epsilon(2e-3));
+}

@@ -202,3 +202,21 @@ TEST_CASE("a joint that was crushed is nowhere stiffer than a sound one, and pas
   answer(pulled, deep, crushed, history);
   CHECK(answer(deep, pulled, crushed, history)[2] == 0);
 }
+
+TEST_CASE("friction of a joint follows the pressure of its springs and of their dashpots", "[cracked]") {
+  const Prepared run = prepare(test::small_wall("analysis{duration=1}", "dry{kn=1e10, mu=0.5}"), false);
+  const Model& m = run.model;
+  const Joint& joint = m.joint[0];
+  for (const double closing : {-2e-7, 0.0, 2e-7}) {  // m, in the step
+    std::array<double, 6> before{0, 0, -1e-6 + closing, 0, 0, 0}, now{1e-4, 0, -1e-6, 0, 0, 0}, f{}, drag{};
+    std::vector<PointHistory> history(std::size_t(joint.type->points)), first = history;
+    std::vector<double> limit(history.size());
+    JointPast past(history.data());
+    past.rate = 0.8;
+    JointEnergy e;
+    respond(m, 0, false, before.data(), now.data(), past, f.data(), e, limit.data());
+    viscous_response(m, 0, before.data(), now.data(), first.data(), past, limit.data(), past.rate, drag.data());
+    CHECK(std::hypot(f[0], f[1]) == Approx(0.5 * -(f[2] + drag[2])).epsilon(1e-12));
+    CHECK(drag[2] * closing <= 0);
+  }
+}

@@ -5,6 +5,8 @@
 
 #include "engine/analysis/dynamic.h"
 #include "engine/contact/broad/search.h"
+#include "engine/record/format/csv.h"
+#include "tests/support/folder.h"
 #include "tests/support/small_wall.h"
 #include "tests/unit/record/two_bricks.h"
 #include "tests/unit/solve/scene_run.h"
@@ -101,4 +103,28 @@ TEST_CASE("contacts hop with the column of the moment", "[solve][interlock]") {
   std::string row;  // end to end up a slope: side by side, not on each other
   for (int k = 0; k < 10; ++k) row += brick(k, 5 + 0.3 * k, 0);
   CHECK(of_contact(built(row, -0.35), "base", "q4").time == Approx(one).epsilon(0.05));
+}
+
+// Its beds have been closed from the start, so their asperities are interlocked when the first hop opens them.
+TEST_CASE("a stack just below the angle of friction stays when it is moved by ten nanometres", "[solve][interlock]") {
+  const std::string scene = R"(
+    material { name = "brick", density = 1800 }
+    local mu, way = .6, math.rad(334)
+    local slope = math.atan(.985 * mu)
+    transform { rotation = { math.sin(way) * slope, math.cos(way) * slope, 0 }, function()
+      box { name = "base", size = { 1.6, 1.4, .1 }, at = { -.6, -.6, -.1 }, fixed = true }
+      for c = 1, 5 do box { name = "p" .. c, size = { .4, .2, .05 }, at = { 0, 0, (c - 1) * .05 } } end
+    end }
+    joint { law = dry { kn = 1e11, mu = mu } }
+    recorder { name = "top", quantity = "displacement", block = "p5" }
+    analysis { duration = .3 }
+  )";
+  const test::Folder folder;
+  lua::Script script(lua::Script::Options{.quiet = true});
+  analysis::RunOptions options;
+  options.directory = folder.file("run"), options.noise = 1e-8, options.threads = 1;
+  analysis::run_dynamic(script.load_text(scene, "scene.lua"), scene, options);
+  const CsvTable table = read_csv(folder.file("run/histories.csv"));
+  const auto last = [&](const char* name) { return table.column(name).back(); };
+  CHECK(std::hypot(last("top_ux_rel_m"), last("top_uy_rel_m")) < 4e-6);
 }
