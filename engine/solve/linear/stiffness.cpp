@@ -82,8 +82,16 @@ JointForm with_dashpots(JointForm form, double viscous, double dt) {
   return form;
 }
 
+// A joint without stiffness against rotation is a pin. Its blocks may swing to any angle, where its greatest stiffness acts along any arm.
+JointForm intact_form(const Joint& joint) {
+  JointForm form = elastic_form(joint);
+  double* k = form.diagonal.data();
+  if (k[3] == 0 && k[4] == 0 && k[5] == 0) std::fill_n(k, 3, std::max({k[0], k[1], k[2]}));
+  return form;
+}
+
 JointForm cracked_form(const Joint& joint) {
-  if (!stiffens(joint)) return elastic_form(joint);
+  if (!stiffens(joint)) return intact_form(joint);
   const Mat6 k = stiffest(joint);
   return {{k(0, 0), k(1, 1), k(2, 2), k(3, 3), k(4, 4), k(5, 5)}, k(3, 4)};
 }
@@ -101,9 +109,9 @@ void set_critical(const Model& m, const State& s, const Freedom& f, const RootMa
       root.apply(y);
     });
   };
-  const double free = 2 / std::sqrt(lambda(elastic_form));
+  const double free = 2 / std::sqrt(lambda(intact_form));
   out.critical = out.cracked = longest_step(free, intact, 4, 1e-7, [&](double dt) {
-    return lambda([&](const Joint& joint) { return with_dashpots(elastic_form(joint), joint.viscous, dt); });
+    return lambda([&](const Joint& joint) { return with_dashpots(intact_form(joint), joint.viscous, dt); });
   });
   const bool stiffer = std::any_of(m.joint.begin(), m.joint.end(), stiffens);
   if (!stiffer && broken <= intact) return;
