@@ -285,7 +285,9 @@ int main(int argc, char** argv) {
   app.add_flag_callback(
       "--no-overlay", [&a] { a.movie.look.overlay = false; }, "the scene alone: no title, clock, legend, scale, axes and ground motion");
   CLI::Option* video = app.add_flag("--video", a.movie.video, "an MP4 a camera (default)");
-  app.add_flag_callback("--no-video", [&a] { a.movie.video = false; }, "pictures alone")->excludes(video);
+  app.add_flag_callback(
+         "--no-video", [&a] { a.movie.video = false; }, "pictures alone")
+      ->excludes(video);
   app.add_flag("--webp", a.movie.webp, "an animated WebP that repeats itself in place of the MP4, for pages such as a README");
   app.add_flag("--figures", a.figures_only, "only histories.svg and energy.svg");
   app.add_flag("--no-figures", a.no_figures, "no figures");
