@@ -13,11 +13,12 @@ namespace {
 constexpr int ledger_every = 32;     // steps between two closings of the ledger, ...
 constexpr int ledger_slowly = 128;   // ... with contacts, ...
 constexpr int ledger_seldom = 4096;  // ... in a scene without a ledger
+constexpr double lift = 1e-3;        // of its height, by which a structure is lifted for its own measure of energy
+constexpr int samples = 1000;        // of a load over the duration
 
 // J, of all moving blocks at the greatest speed of a point that moves with a driven block, as far from it as the farthest of them: the
 // measure of a structure without weight, which driven blocks set in motion.
 double driven_energy(const Model& model, double mass) {
-  constexpr int samples = 1000;
   const double h = model.analysis.duration / samples;
   double fastest = 0;
   for (const Model::PrescribedMotion& motion : model.prescribed_motions) {
@@ -32,6 +33,17 @@ double driven_energy(const Model& model, double mass) {
     }
   }
   return 0.5 * mass * fastest * fastest;
+}
+
+// J, of the forces on a structure without weight at their greatest, over `height` (m), as of a weight. A moment counts as it is.
+double loaded_energy(const Model& model, double height) {
+  double sum = 0;
+  for (const Model::ForceLoad& load : model.force_loads) {
+    double most = 0;
+    for (int i = 0; i <= samples; ++i) most = std::max(most, std::fabs(value(load.wave, i * model.analysis.duration / samples)));
+    sum += most * (load.moment ? 1 : height);
+  }
+  return lift * sum;
 }
 
 }  // namespace
@@ -80,7 +92,7 @@ Ledger::Ledger(const Model& model, State& state) : model_(model), state_(state) 
   const double weight = mass_ * model.gravity.norm();
   high = std::max(high, low);
   floor_ = std::max(1e-300, 1e-12 * weight * (high - low));
-  lift_ = weight > 0 ? 1e-3 * weight * (high - low) : driven_energy(model, mass_);
+  lift_ = weight > 0 ? lift * weight * (high - low) : std::max(driven_energy(model, mass_), loaded_energy(model, high - low));
   state.energy.reference = std::max({state.energy.reference, lift_, state.time.step == 0 ? kinetic : 0});
 }
 

@@ -167,3 +167,21 @@ TEST_CASE("the ledger of an elastic pier under a large load closes, however litt
     CHECK(m.diagnostics.energy_residual < 1e-6);
   }
 }
+
+// From zero on: what the first millisecond errs is nothing beside the work that the force will do.
+TEST_CASE("a wedge without weight that a force drives in closes its ledger", "[solve][ledger]") {
+  const test::Folder folder;
+  const std::string scene = R"(
+    gravity(0)
+    material { name = "s", density = 2000, friction = .3 }
+    prism { name = "w", axis = "y", height = .5, polygon = { { 0, -.1 }, { 0, .1 }, { .5, .19 }, { .5, -.19 } } }
+    prism { name = "L", axis = "y", height = .5, polygon = { { 0, -.69 }, { .5, -.69 }, { .5, -.19 }, { 0, -.1 } }, fixed = true }
+    prism { name = "R", axis = "y", height = .5, polygon = { { .5, .19 }, { .5, .69 }, { 0, .69 }, { 0, .1 } }, fixed = true }
+    joint { law = dry { kn = 1e10, mu = .3 } }
+    force { block = "w", direction = "-z", wave = table_wave { times = { 0, .2, .4 }, values = { 0, 2e4, 0 } } }
+    analysis { duration = .5 }
+  )";
+  const Metrics m = test::dynamic_run(scene, folder.file("run"), Existing::refuse);
+  CHECK(m.status == "completed");
+  CHECK(m.diagnostics.energy_residual < 1e-6);
+}
