@@ -135,6 +135,7 @@ void Run::begin() {
   }
   height_energy_ = weights > 0 ? moments - weights * low : 0;
   solver_.emplace(run_.model, run_.state, run_.range, options_.threads);
+  solver_->follow_closely();
   crew_.emplace(options_.threads);
   return_free_memory();
   steps_at_start_ = run_.state.time.step;
@@ -289,6 +290,7 @@ void Run::change_threads() {
   take_events(output_.joints, *solver_);
   take_counts();
   solver_.emplace(run_.model, run_.state, run_.range, crew_->threads());
+  solver_->follow_closely();
   crew_->took(seconds() - began);
 }
 

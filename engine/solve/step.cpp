@@ -246,7 +246,7 @@ void Solver::refine_references() {
   constexpr double visible = 3e-8;                  // residual; an elastic ledger may have 1e-6, and half a wave later it would
   double& rotation = state_.cache.lazy_rotation;
   const double asked = model_.analysis.lazy_rotation, before = rotation;
-  if (!ledger_.is_due() || asked > coarsest) return;
+  if (!closely_ || !ledger_.is_due() || asked > coarsest) return;
   if (joints_.any_cracked() || has_contacts_) rotation = asked;
   else if (state_.energy.residual_relative > visible) rotation = std::min(rotation, finest);
   if (rotation != before) note_sleep();

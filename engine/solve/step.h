@@ -60,7 +60,8 @@ class Solver {
     while (!broken_ && !stop());
   }
 
-  void use(CoarseInertia& inertia);  // from now on; for relaxations
+  void use(CoarseInertia& inertia);           // from now on; for relaxations
+  void follow_closely() { closely_ = true; }  // poses, where an elastic ledger would show it; for time histories
 
   const SampleState& sample() const { return sample_; }
   bool broken() const { return broken_; }
@@ -136,6 +137,7 @@ class Solver {
   Stop stop_ = Stop::none;
   bool broken_ = false, has_contacts_ = false, has_transitions_ = false;
   const bool may_have_levels_;
+  bool closely_ = false;
   Shares joint_shares_, contact_shares_, block_shares_;
   Team team_;
 };

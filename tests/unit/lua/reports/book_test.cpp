@@ -85,7 +85,7 @@ TEST_CASE("a slope asked of converge{} makes a scene of a folder a case, a comme
   bench.erbs({"test", (bench.folder / "cases").string(), "-o", bench.out()});
   INFO(bench.said);
   CHECK(contains(bench.said, "v01_order"));
-  CHECK(contains(bench.said, "of 1 cases"));
+  CHECK(contains(bench.said, "of 1 case"));
 }
 
 TEST_CASE("the grid tells the worst of each invariant, keeps what is done, and honours fixed steps and limits of use", "[program]") {
