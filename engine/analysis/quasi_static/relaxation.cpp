@@ -175,6 +175,7 @@ void Relaxation::hold_by_machine(double stiffness) {
 void Relaxation::start(State& s, double dt) const {
   s.time = TimeStep{};
   s.time.dt = s.time.dt_target = dt;
+  s.contacts.list.bound_updated_at = std::numeric_limits<int>::min();  // at once: the steps begin anew, and the masses may be others
 }
 
 void Relaxation::end(State& s) const {

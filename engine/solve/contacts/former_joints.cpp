@@ -21,8 +21,10 @@ constexpr double most_reset = 1.5e-3;
 
 void FormerJoints::list_pairs() {
   of_pair_.clear();
-  for (const ContactPair& p : state_.contacts.list.pair)
+  for (ContactPair& p : state_.contacts.list.pair) {
+    if (p.former_joint) bound(p);  // a push and the fall after it have other masses
     of_pair_.push_back({p.former_joint ? bodies_.first_joint_of(p) : -1, p.bound_share_a, p.bound_share_b});
+  }
 }
 
 // Rates of a former joint: those of its joints, in the terms of a contact on the same faces (`stability()` of `pair.cpp`).

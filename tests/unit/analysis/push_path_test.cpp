@@ -183,3 +183,24 @@ TEST_CASE("a push acts on blocks that all lie at one height", "[push]") {
   const double weight = 1800 * 0.1 * 0.25 * 0.1 * 9.81, paper = (2 * 0.3e6 * 0.1 * 0.25 - weight) / 1000;
   CHECK(push(triplet, dir.path).metrics.capacity->peak.multiplier == Approx(paper).epsilon(2e-3));
 }
+
+// A strip of eight courses under a light cap between smooth guides. Its masses are scaled up to the capacity, and are true in the fall
+// after it.
+TEST_CASE("the fall after a push has the step that its true masses bear", "[push]") {
+  const std::string strip = R"(
+    material { name = "s", density = 1800 }
+    material { name = "cap", density = 300 }
+    ground { size = 10, material = "s" }
+    for i = 0, 7 do box { name = "b" .. i, size = { 1, .11, .3 }, at = { 0, 0, i * .3 }, material = "s" } end
+    box { name = "cap", size = { 1, .11, .3 }, at = { 0, 0, 2.4 }, material = "cap", group = "cap" }
+    box { name = "stop1", size = { 1, .2, .24 }, at = { 0, .11, 2.43 }, fixed = true, group = "stop", material = "cap" }
+    box { name = "stop2", size = { 1, .2, .24 }, at = { 0, -.2, 2.43 }, fixed = true, group = "stop", material = "cap" }
+    joint { law = dry { kn = 1e12, mu = 2 } }
+    joint { law = dry { kn = 1e12, mu = 0 }, between = { "cap", "stop" } }
+    analysis { kind = "pushover", direction = "y", monitor = { block = "b4" } }
+  )";
+  const test::Scratch dir("push_light_cap");
+  const Metrics m = push(strip, dir.path).metrics;
+  CHECK(m.status == "completed");
+  CHECK(m.capacity->peak.multiplier == Approx(0.1194).epsilon(5e-3));
+}
