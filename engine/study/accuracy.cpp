@@ -240,8 +240,9 @@ std::vector<std::size_t> pareto(const Goal& q, std::size_t index, const std::vec
 }
 
 std::optional<std::size_t> cheapest(const Goal& q, std::size_t index, const std::vector<Measured>& all, double target) {
-  for (const std::size_t i : pareto(q, index, all, true))
-    if (*error_of(q, index, all[i], all) <= target) return i;
+  const auto within = [&](std::optional<double> error) { return error && *error <= target; };
+  for (const std::size_t i : pareto(q, index, all, true))  // an error of its own that another one happens to cancel does not count
+    if (within(error_of(q, index, all[i], all)) && within(own_error_of(q, index, all[i], all))) return i;
   return std::nullopt;
 }
 

@@ -66,13 +66,16 @@ void print_table(const std::vector<Row>& rows) {
 
 // Stores what the table above shows to differ. Returns the number of verdicts that this turns into passed ones.
 long bless(const std::vector<CaseResult>& results) {
-  long renewed = 0;
-  for (const CaseResult& result : results)
+  long renewed = 0, broken = 0;
+  for (const CaseResult& result : results) {
     for (const std::string& line : renew(result.verdicts)) {
       say("{}\n", shown(line, 2000));
       ++renewed;
     }
-  if (renewed == 0) say("nothing to store: all stored pictures and values hold\n");
+    if (!result.trouble.empty()) ++broken;
+  }
+  if (broken > 0) say("nothing to store of {} that did not run; see the table\n", counted(broken, "case"));
+  else if (renewed == 0) say("nothing to store: all stored pictures and values hold\n");
   return renewed;
 }
 

@@ -63,9 +63,10 @@ std::string capacity_text(const PushSettings& push, const Json& metrics) {
   if (!capacity) return "";
   if (capacity->value("gravity_alone", false)) return "does not stand under " + under_text(metrics);
   const auto number = [&](const char* key) { return number_at(*capacity, key); };
-  const char* unit = !push.tilts() && push.pattern.empty() ? " g" : "";
-  std::string text = push.tilts() ? fmt::format("tilts to {:.3f} deg (tangent {:.5g})", number("angle_deg"), number("multiplier"))
-                                  : fmt::format("capacity {:.5g}{}", number("multiplier"), unit);
+  const bool tilts = capacity->value("kind", "") == "tilt";  // --set may have said another kind than the scene
+  const char* unit = !tilts && push.pattern.empty() ? " g" : "";
+  std::string text = tilts ? fmt::format("tilts to {:.3f} deg (tangent {:.5g})", number("angle_deg"), number("multiplier"))
+                           : fmt::format("capacity {:.5g}{}", number("multiplier"), unit);
   text += (*capacity)["upper"].is_number()             ? fmt::format("; no equilibrium at {:.5g}{}", number("upper"), unit)
           : metrics.value("status", "") != "completed" ? " so far"
           : capacity->value("past_peak", false)        ? "; the peak of the curve"
@@ -107,9 +108,10 @@ std::string capacity_text(const PushSettings& push, const Json& metrics) {
 void print_summary(const Scene& scene, const std::string& directory, const Json& metrics, const std::vector<Verdict>& verdicts,
                    std::size_t without_answer) {
   if (scene.push.quasi_static()) {
-    const Json* performance = find_key(metrics, "capacity.performance");
-    say("{}: {}, {} in {}; {}\n{}\n", scene.name, metrics.value("status", ""), scene.push.kind,
-        duration_text(number_at(metrics, "wall_s.total")), size_text(scene, metrics), capacity_text(scene.push, metrics));
+    const Json *performance = find_key(metrics, "capacity.performance"), *said = find_key(metrics, "capacity.kind");
+    const std::string kind = said && said->is_string() ? said->get<std::string>() : scene.push.kind;
+    say("{}: {}, {} in {}; {}\n{}\n", scene.name, metrics.value("status", ""), kind, duration_text(number_at(metrics, "wall_s.total")),
+        size_text(scene, metrics), capacity_text(scene.push, metrics));
     if (performance) say("{}\n", performance_text(*performance));
   } else {
     say("{}: {}, {:g} s simulated in {} ({:.3g} x real time); {}\n", scene.name, metrics.value("status", ""), number_at(metrics, "time_s"),

@@ -77,10 +77,15 @@ std::string kind_of(const LimitResult& r, const Model& m, const LimitMechanism& 
   const std::string plane = plane_word(r, m, found.drift);
   if (hinges == 0) return plane + (slides > 0 ? "sliding" : parted > 0 ? "falling" : "no movement of joints");
   if (rigid(r, m)) return plane + "overturning" + (slides > 0 ? " of a part that slides off its neighbours" : " as one piece");
-  // A chain of blocks: every block has at most two joints.
-  std::vector<int> joints(z(m.nblock), 0);
+  // A chain of bodies: every block has at most two joints, or at most two of few that move.
+  constexpr int few = 8;
+  std::vector<int> joints(z(m.nblock), 0), moved = joints;
   for (const Joint& joint : m.joint) ++joints[z(joint.a)], ++joints[z(joint.b)];
-  const bool chain = std::all_of(r.problem.block_of.begin(), r.problem.block_of.end(), [&](int b) { return joints[z(b)] <= 2; });
+  for (const MovedJoint& one : found.joints.moved) ++moved[z(m.joint[z(one.joint)].a)], ++moved[z(m.joint[z(one.joint)].b)];
+  const auto two_at_most = [&](const std::vector<int>& count) {
+    return std::ranges::all_of(r.problem.block_of, [&](int b) { return count[z(b)] <= 2; });
+  };
+  const bool chain = two_at_most(joints) || (parted == 0 && hinges + slides <= few && two_at_most(moved));
   if (chain) return slides == 0 ? fmt::format("{} hinges", hinges) : fmt::format("{} hinges and {} sliding joints", hinges, slides);
   return plane + (slides > 0 ? "overturning with sliding" : "overturning of several parts");
 }

@@ -112,6 +112,15 @@ std::string unit_of_im(const Sweep& sweep) {
   return im;
 }
 
+// Twins of one record or draw fall at nearly the same intensity: they tell of chaos, not of other records.
+std::string twins_of(const Sweep& sweep, const Group& group) {
+  std::size_t twins = 1;
+  for (const Axis& axis : sweep.plan.axes)
+    if (is_perturbation(axis)) twins *= axis.rows.size();
+  if (twins < 2 || group.cases.size() <= twins) return "";
+  return fmt::format("; {} perturbations of each case are not independent of each other, so that the bands are too narrow", twins);
+}
+
 std::vector<Fragility> write_fragility(const Sweep& sweep, const std::vector<Group>& groups) {
   const std::string im = unit_of_im(sweep);
   const ShownIntensity shown = shown_intensity(sweep);
@@ -120,7 +129,10 @@ std::vector<Fragility> write_fragility(const Sweep& sweep, const std::vector<Gro
   for (const Group& group : groups) {
     const FragilityPlan& plan = *sweep.plan.fragility;
     const bool bisected = sweep.plan.bisect.has_value();  // it chooses its runs by their answers
-    if (group.incremental() || bisected) out.push_back(fragility_of(group, "capacities", plan, shown));
+    if (group.incremental() || bisected) {
+      out.push_back(fragility_of(group, "capacities", plan, shown));
+      out.back().words += twins_of(sweep, group);
+    }
     if (!bisected) out.push_back(fragility_of(group, "runs", plan, shown));
   }
   for (const Fragility& one : out) rows.push_back(row_of(one));
