@@ -66,6 +66,26 @@ std::string idle(const Load& load, double duration) {
                      name_of(load), begin, duration);
 }
 
+// A record whose file leaves out a stretch. A straight line spans it, whose area moves the ground.
+std::string hole_in(const Load& load) {
+  const Record* record = std::get_if<Record>(&load.wave);
+  if (record == nullptr) return "";
+  constexpr double long_step = 10;  // times the usual one
+  const std::vector<double>& t = record->acceleration.times;
+  std::vector<double> steps;
+  for (std::size_t i = 2; i < t.size(); ++i) steps.push_back(t[i] - t[i - 1]);  // the ground may have been at rest before the first value
+  if (steps.size() < 3) return "";
+  const auto longest = std::ranges::max_element(steps);
+  const std::size_t at = std::size_t(longest - steps.begin()) + 2;
+  const double most = *longest;
+  std::ranges::nth_element(steps, steps.begin() + std::ptrdiff_t(steps.size() / 2));
+  if (!(most > long_step * steps[steps.size() / 2])) return "";
+  return fmt::format(
+      "{}: its record has no value between {:.6g} and {:.6g} s, {:.0f} of its usual steps, which a straight line spans; are lines "
+      "of {} missing?",
+      name_of(load), record->start + t[at - 1], record->start + t[at], most / steps[steps.size() / 2], record->file);
+}
+
 // A load that acts, but on nothing: a rotation of gravity about its own line, or a force far from its block.
 std::string astray(const Load& load, const Scene& scene, const Model& model) {
   if (load.kind == Load::Kind::tilt && load.direction.cross(scene.gravity).norm() < 1e-9 * load.direction.norm() * scene.gravity.norm())
@@ -150,6 +170,7 @@ std::vector<std::string> warnings_of_loads(const Scene& scene, const Model& mode
   std::vector<Doubt> doubts;
   for (const Load& load : scene.loads) {
     std::string text = idle(load, scene.analysis.duration);
+    if (text.empty()) text = hole_in(load);
     if (text.empty()) text = astray(load, scene, model);
     if (text.empty() && (load.kind == Load::Kind::motion || load.kind == Load::Kind::turning)) {
       const auto block = std::find_if(scene.blocks.begin(), scene.blocks.end(), [&](const Block& b) { return b.name == load.block; });

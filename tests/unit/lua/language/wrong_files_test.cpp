@@ -162,3 +162,21 @@ TEST_CASE("a record or a mesh with one thing wrong in it is refused at the scene
       CHECK((contains(mistakes[0], ";") || contains(mistakes[0], "promises")));  // the remedy follows
     }
 }
+
+TEST_CASE("a record with a hole is warned of, one of even steps or few points is not", "[bad_input]") {
+  const auto rows = [](double from, double to) {
+    std::string text;
+    for (double t = from; t < to; t += 0.01) text += fmt::format("{:.2f}, {:.3f}\n", t, std::sin(20 * t));
+    return text;
+  };
+  const std::pair<std::string, bool> list[] = {
+      {rows(0, 1) + rows(1.6, 2), true}, {rows(0, 2), false}, {rows(.3, 2), false}, {"0, 0\n1, 1\n2, 0\n", false}};
+  for (const auto& [text, warned] : list) {
+    Bench bench;
+    bench.write("own.csv", text);
+    CHECK(bench.erbs({"check", bench.scene(pier + "ground_motion{ wave = record{ file = 'own.csv', unit = 'm/s2' }, direction = 'x' }")}) ==
+          0);
+    INFO(bench.said);
+    CHECK(contains(bench.said, "its record has no value between 0.99 and 1.6 s, 61 of its usual steps") == warned);
+  }
+}
