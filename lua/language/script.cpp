@@ -95,7 +95,7 @@ void evaluate_overrides(lua_State* lua, Context& context) {
       const std::string message = error.what(), place = name + ":1:";  // an expression has one line
       std::string said = message.starts_with(place) ? name + ":" + message.substr(place.size()) : message;
       if (is_bare_word(item.expression)) item.trouble = std::move(said);  // none for a param that takes a word: -D trend=tension
-      else context.mistakes.push_back(std::move(said));
+      else context.mistakes.push_back(said + (said.find("malformed number") == std::string::npos ? "" : "; a unit is a factor: 0.8*g"));
     }
   }
 }

@@ -80,6 +80,12 @@ TEST_CASE("a run stopped by --until ends with 3, and --resume ends as one run wo
   CHECK(read_json(bench.out() + "/metrics.json")["state_hash"] == whole["state_hash"]);
 }
 
+TEST_CASE("a param with its unit written onto it is met with the way to write it", "[program][bad_input]") {
+  Bench bench;
+  CHECK(bench.run(falling_brick, {"-D", "duration=0.5s"}) == 2);
+  CHECK(contains(bench.said, "-D duration=0.5s: malformed number near '0.5s'; a unit is a factor: 0.8*g"));
+}
+
 TEST_CASE("the log of a run that was stopped twice has each warning once", "[program][resume]") {
   Bench bench;
   const std::string scene = falling_brick + "joint{ between = { 'brick', 'brick' }, law = dry{ kn = 1e9, mu = .6 } }\n";
