@@ -18,9 +18,10 @@
 // stood under 1 g at mu = .6. No more is lent than what the pressure now lacks of its mean gives in a few hops: a bed that is unloaded for
 // good lets go, and shaking that is slower than the hops moves it as Coulomb's law does (V63). Low columns come to rest by their dashpots
 // and are lent less; some hops must be lent all the same, or a wall of undamped mortar creeps as it trembles (V62), and a stack that plates
-// have fallen onto (h35). The mean starts from zero: a mean that starts with the blow of a landing face would lend a multiple of the
-// weight. All scales derive from d and g: the model has no length, time or speed of its own. sqrt(d / g) of a column, its time of a hop,
-// says all.
+// have fallen onto (h35). The mean of a dry bed starts with the pressure at which it first opens or slides, since its asperities have been
+// interlocked so far: from zero on, a stack near its limit slid by centimetres in the time until the mean was known (h27). Elsewhere it
+// starts from zero: with the blow of a landing face, or the pressure at which a bond breaks, it would lend a multiple of the weight. All
+// scales derive from d and g: the model has no length, time or speed of its own. sqrt(d / g) of a column, its time of a hop, says all.
 #pragma once
 
 namespace erbs {

@@ -53,6 +53,33 @@ double step_of_loads(const Scene& scene) {
   return least;
 }
 
+// Refuses a step with which nothing, or nonsense, would be computed.
+void check_dt(const Scene& scene, Prepared& p, double dt, bool allow_unstable) {
+  const Analysis& a = scene.analysis;
+  const StepBounds& b = p.bounds;
+  const bool jointed = std::isfinite(b.critical);
+  if (dt > a.duration && !scene.push.quasi_static())
+    throw Error(
+        fmt::format("analysis: the time step {:.4g} s ({}) is longer than the duration {:g} s: nothing would be computed; say a longer "
+                    "duration or a shorter dt",
+                    dt, p.dt_rule, a.duration),
+        a.place);
+  const double allowed = stability_limit(a, b);
+  if (jointed && dt > allowed && !a.unstable && !allow_unstable)
+    throw Error(
+        fmt::format("analysis: dt = {:.4g} s is {:.3f} times the limit {} = {:.4g} s of this structure{}; take at most {:.3g} s, or let it "
+                    "diverge with dt = {{ {:.4g}, unstable = true }} or --allow-unstable",
+                    dt, dt / allowed, allowed == b.critical ? "2 / omega_max" : "2 / omega_block of the sequential sweep", allowed,
+                    b.stiffest_block < 0 ? "" : fmt::format(", set by the joints of block \"{}\"", p.model.block_name[z(b.stiffest_block)]),
+                    0.9 * allowed, dt),
+        a.place);
+  if (jointed && dt <= b.critical && dt > b.cracked)
+    p.warnings.push_back(fmt::format(
+        "dt = {:.4g} s is below the limit {:.4g} s of the intact structure but above {:.4g} s, the limit after joints have cracked "
+        "(cracked joints are stiffer in bending than their points, or damped); take at most {:.3g} s",
+        dt, b.critical, b.cracked, 0.9 * b.cracked));
+}
+
 void choose_dt(const Scene& scene, Prepared& p, bool allow_unstable) {
   const Analysis& a = scene.analysis;
   const StepBounds& b = p.bounds;
@@ -89,7 +116,9 @@ void choose_dt(const Scene& scene, Prepared& p, bool allow_unstable) {
       p.dt_rule = said("2 / omega_max once joints have cracked, stiffer in bending than their points or damped", b.cracked, share);
     }
   }
-  const double by_loads = a.dt == 0 && a.dt_rule == Analysis{}.dt_rule ? step_of_loads(scene) : std::numeric_limits<double>::infinity();
+  constexpr double finest = 1.0 / 64;  // of the structure's step: it hardly feels a load that is faster still
+  const bool by_limit = a.dt == 0 && a.dt_rule == Analysis{}.dt_rule;
+  const double by_loads = by_limit ? std::max(step_of_loads(scene), finest * dt) : std::numeric_limits<double>::infinity();
   if (by_loads < dt) {
     dt = by_loads;
     p.dt_rule = "a twentieth of the shortest period of the loads, or an interval of the points that give one";
@@ -105,26 +134,7 @@ void choose_dt(const Scene& scene, Prepared& p, bool allow_unstable) {
     dt /= a.iterations;
     p.dt_rule += fmt::format(", in {} sweeps", a.iterations);
   }
-  if (dt > a.duration && !scene.push.quasi_static())
-    throw Error(
-        fmt::format("analysis: the time step {:.4g} s ({}) is longer than the duration {:g} s: nothing would be computed; say a longer "
-                    "duration or a shorter dt",
-                    dt, p.dt_rule, a.duration),
-        a.place);
-  const double allowed = stability_limit(a, b);
-  if (jointed && dt > allowed && !a.unstable && !allow_unstable)
-    throw Error(
-        fmt::format("analysis: dt = {:.4g} s is {:.3f} times the limit {} = {:.4g} s of this structure{}; take at most {:.3g} s, or let it "
-                    "diverge with dt = {{ {:.4g}, unstable = true }} or --allow-unstable",
-                    dt, dt / allowed, allowed == b.critical ? "2 / omega_max" : "2 / omega_block of the sequential sweep", allowed,
-                    b.stiffest_block < 0 ? "" : fmt::format(", set by the joints of block \"{}\"", p.model.block_name[z(b.stiffest_block)]),
-                    0.9 * allowed, dt),
-        a.place);
-  if (jointed && dt <= b.critical && dt > b.cracked)
-    p.warnings.push_back(fmt::format(
-        "dt = {:.4g} s is below the limit {:.4g} s of the intact structure but above {:.4g} s, the limit after joints have cracked "
-        "(cracked joints are stiffer in bending than their points, or damped); take at most {:.3g} s",
-        dt, b.critical, b.cracked, 0.9 * b.cracked));
+  check_dt(scene, p, dt, allow_unstable);
   p.state.time.dt = p.range.longest = dt;
   // A step derived from joints may grow once they are gone, as far as contacts allow (`ContactBound`), at most to that of a block on one
   // whole face: `debris_bound` counts the face four times.
