@@ -50,7 +50,7 @@ double step_of_loads(const Scene& scene) {
   double least = std::numeric_limits<double>::infinity();
   if (!scene.push.quasi_static())
     for (const Load& load : scene.loads) least = std::min(least, following_step(load.wave));
-  return least;
+  return least * std::min(1.0, scene.analysis.dt_fraction / Analysis{}.dt_fraction);  // a smaller fraction asks for a smaller step
 }
 
 // Refuses a step with which nothing, or nonsense, would be computed.

@@ -260,6 +260,8 @@ TEST_CASE("the step follows loads that are faster than the structure", "[analysi
   CHECK(step("ground_motion { direction = 'x', wave = sine { amplitude = 1, frequency = 60 } }") == Approx(1.0 / 1200));
   CHECK(step("ground_motion { direction = 'x', wave = sine { amplitude = 1, frequency = 1 } }") == own);
   CHECK(step("ground_motion { direction = 'x', wave = sine { amplitude = 1, frequency = 1e6 } }") == Approx(own / 64));
+  CHECK(step("ground_motion { direction = 'x', wave = sine { amplitude = 1, frequency = 60 } } analysis { dt_fraction = .45 }") ==
+        Approx(1.0 / 2400));
   CHECK(step("ground_motion { direction = 'x', wave = table_wave { times = { 0, 1e-6, 1 }, values = { 0, 1, 1 } } }") == own);  // a leap
 }
 

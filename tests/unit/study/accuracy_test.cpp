@@ -118,6 +118,18 @@ TEST_CASE("the front holds what nothing beats; target and budget find their sett
   CHECK_THAT(plain_sentence(q, 0, all), Catch::Contains("x costs") && Catch::Contains("the error."));
 }
 
+TEST_CASE("a setting whose own error another one cancels is never advised for a target", "[study]") {
+  std::vector<Measured> all = measurements();
+  Goal q = goal(1.05);  // the scene itself errs by 5 %: its own limit is 1
+  settle_reference(q, 0, all);
+  Measured lucky = run("lucky", 1, 0.9, 3);
+  lucky.values = {1.05}, lucky.updates = 1, lucky.cpu = 1e-6;
+  all.push_back(lucky);
+  REQUIRE(*error_of(q, 0, lucky, all) < 1e-9);
+  CHECK_FALSE(cheapest(q, 0, all, 0.01));
+  CHECK(cheapest(q, 0, all, 0.06));
+}
+
 TEST_CASE("what is run for comparison only is never advised, however well it does", "[study]") {
   std::vector<Measured> all = measurements();
   Goal q = goal(1.0);

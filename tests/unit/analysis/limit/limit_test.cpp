@@ -288,3 +288,18 @@ TEST_CASE("the multiplier without friction of upright joints is said where stati
                                  " }\narch { radius = 1, thickness = .2, width = .3, voussoirs = 9 }");
   CHECK_FALSE(smooth_multiplier(arch, {}, {}, limit_analysis(arch, {}, {})));  // it does not stand without
 }
+
+// The piers of a running bond and their buttresses have blocks with many joints, but only four joints move.
+TEST_CASE("an arch on buttressed piers has its four hinges named", "[limit]") {
+  const Model model = test::limit_model(R"(
+    material { name = "brick", density = 2400 }
+    ground { z = 0, size = 10, material = "brick" }
+    joint { law = dry { kn = 2e10, mu = .7 } }
+    arch { radius = 2, thickness = .4, width = .8, voussoirs = 17, at = { 0, 0, 2.4 }, abutments = false, material = "brick" }
+    for _, p in ipairs { { "l", -2.65, -2.65, "-x" }, { "r", 1.75, 2.65, "x" } } do
+      wall { name = "w" .. p[1], length = .9, height = 2.4, at = { p[2], -.4, 0 }, brick = { length = .9, width = .8, height = .4 }, joint = 0, quiet = true }
+      buttress { name = "b" .. p[1], at = { p[3], 0, 0 }, towards = p[4], width = .8, depth = 1.2, top_depth = .5, courses = 6, block = { length = .5, height = .4 }, material = "brick" }
+    end
+  )");
+  CHECK(analysis::limit_mechanism(analysis::limit_analysis(model, {}, {}), model).kind == "4 hinges");
+}

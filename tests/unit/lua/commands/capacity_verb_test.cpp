@@ -167,3 +167,11 @@ TEST_CASE("erbs capacity refuses what it cannot evaluate", "[capacity][program][
         2);
   CHECK(contains(bench.said, "--push-to is a displacement of a pushover"));
 }
+
+TEST_CASE("the summary of a push speaks of the kind that --set says", "[capacity][program]") {
+  Bench bench;
+  CHECK(bench.run(load, {"--set", "kind=tilt"}) == 0);
+  INFO(bench.said);
+  CHECK(contains(bench.said, "tilts to 16."));  // atan .3 = 16.7 degrees
+  CHECK_FALSE(contains(bench.said, "capacity 0."));
+}

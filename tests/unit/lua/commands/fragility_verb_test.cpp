@@ -162,3 +162,16 @@ TEST_CASE("mistakes in a fragility name the key and the remedy", "[sweep][fragil
             {"--force"}) == 2);
   CHECK_THAT(study.said, Catch::Contains("study.lua:1") && Catch::Contains("im = \"seed\" takes words"));
 }
+
+TEST_CASE("twins of several cases are told in the words of the capacities, those of one case are its cases", "[sweep][fragility]") {
+  FragilityStudy study;
+  const auto words = [&](const std::string& seeds) {
+    const std::string vary = "grid{ seed = { " + seeds + " }, pga = { .6, 1, 1.4, 1.9, 2.5, 4 } }, perturbations{ n = 3, size = 0 }";
+    REQUIRE(study.sweep("study{ scene = 'tiny.lua', keep = 'none', vary = { " + vary +
+                            " }, fragility = { im = 'pga', collapse = 'metrics.fell' } }",
+                        {"--force"}) == 0);
+    return text_of(study.out() + "/fragility.csv");
+  };
+  CHECK(contains(words("3, 6, 9"), "3 perturbations of each case are not independent of each other, so that the bands are too narrow"));
+  CHECK_FALSE(contains(words("3"), "not independent of each other"));
+}

@@ -109,6 +109,13 @@ TEST_CASE("a changed run is not compared with what is stored", "[stored][program
   CHECK(contains(bench.said, "expectations: 1 passed"));
 }
 
+TEST_CASE("the option --bless does not say that all holds where a scene did not run", "[stored][bad_input][program]") {
+  StoredBench bench;
+  CHECK(bench.test("nonsense{}\n" + leaning_pier(0.8, expectations), {"--bless"}) != 0);
+  CHECK(contains(bench.said, "nothing to store of 1 case that did not run; see the table"));
+  CHECK_FALSE(contains(bench.said, "all stored pictures and values hold"));
+}
+
 TEST_CASE("what was stored for another scene fails, and a changed script is named as the cause", "[stored][bad_input][program]") {
   StoredBench bench;
   REQUIRE(bench.test(leaning_pier(0.8, expectations), {"--bless"}) == 0);
