@@ -4,6 +4,7 @@
 #include <chrono>
 #include <functional>
 #include <iterator>
+#include <limits>
 #include <utility>
 
 #include "engine/analysis/start/elastic_push.h"
@@ -182,7 +183,7 @@ void begin_anew(const Model& m, const State& before, State& s) {
   s.energy = Energy{};
   s.cache.lazy_rotation = before.cache.lazy_rotation;
   s.observed.momentum_residual = before.observed.momentum_residual;
-  s.contacts.list.bound_updated_at = 0;
+  s.contacts.list.bound_updated_at = std::numeric_limits<int>::min();  // at once: the steps begin anew, and nothing is held any more
   find_islands(m, s);
 }
 
