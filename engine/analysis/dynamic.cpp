@@ -247,6 +247,7 @@ Metrics Run::metrics() const {
   m.max_penetration_relative = s.observed.max_penetration_relative;
   m.collapse.collapsed = collapse_.collapsed;
   m.collapse.fallen_fraction = collapse_.fallen_fraction;
+  m.collapse.moving_fraction = moving_fraction(collapse_, run_.model, s);
   m.collapse.moved = collapse_.moved;
   m.collapse.under_gravity = collapse_.under_gravity;
   if (collapse_.under_gravity) m.collapse.under = weight_at_start(run_.model);

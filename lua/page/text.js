@@ -31,19 +31,23 @@ function verdictCard(metrics) {
         'warn', 'Verdict', 'No result', ['The run did not end: its folder has no metrics.json. The frames written until then are shown.']);
   const {collapse = {}} = metrics, lines = [];
   const diverged = metrics.status === 'diverged', ended = ['completed', 'inaccurate'].includes(metrics.status);
+  const moving = collapse.moving_fraction > 0;
   if (collapse.course) lines.push(`Course: ${collapse.course}`);
   if (collapse.mechanism?.summary && !diverged) lines.push(`Mechanism: ${collapse.mechanism.summary}`);
   if (collapse.fallen_fraction !== undefined) lines.push(`${short(100 * collapse.fallen_fraction)} % of the mass has fallen by the end`);
+  if (moving) lines.push(`${short(100 * collapse.moving_fraction)} % of it still moves at the end`);
   lines.push(`${metrics.joints_broken} of ${metrics.joints} joints broken; ${metrics.blocks} blocks`);
   const checks = metrics.expectations ?? {};
   if (checks.passed + checks.failed) lines.push(`Expectations of the scene: ${checks.passed} met, ${checks.failed} not`);
   const how = metrics.status === 'completed' ? '' : ` (run ${metrics.status})`;
   // A push, and what does not stand under its own weight, have no time of collapse. What has not come to its end may still collapse.
-  const lead = !collapse.collapsed ? (ended ? 'Does not collapse' : diverged ? 'No verdict' : 'No collapse so far') :
+  const stands = !ended ? 'No collapse so far' : moving ? 'No collapse by the end' : 'Does not collapse';
+  const lead = !collapse.collapsed ? (diverged ? 'No verdict' : stands) :
       run.collapse_when            ? `Collapses ${run.collapse_when}` :
       collapse.under_gravity       ? `Does not stand under ${collapse.under ?? 'its own weight'}` :
                                      'Collapses';
-  return card(collapse.collapsed ? 'bad' : metrics.status === 'completed' ? 'good' : 'warn', 'Verdict', lead + how, lines);
+  const kind = collapse.collapsed ? 'bad' : metrics.status === 'completed' && !moving ? 'good' : 'warn';
+  return card(kind, 'Verdict', lead + how, lines);
 }
 
 function trustCard(metrics) {

@@ -34,11 +34,18 @@ std::string under_text(const Json& metrics) {
   return under && under->is_string() ? under->get<std::string>() : "its own weight";
 }
 
+// What has not come to rest at the end may fall yet.
+std::string moving_text(const Json& metrics) {
+  const double share = number_at(metrics, "collapse.moving_fraction");
+  return share > 0 ? fmt::format("; at the end {:.3g} % of it still moves", 100 * share) : "";
+}
+
 std::string collapse_text(const Analysis& how, const Json& metrics) {
   const Json* collapsed = find_key(metrics, "collapse.collapsed");
   const double share = number_at(metrics, "collapse.fallen_fraction");
   if (!collapsed || !collapsed->is_boolean() || !collapsed->get<bool>())
-    return share > 0 ? fmt::format("no collapse; {:.2g} % of the mass fell", 100 * share) : "no collapse; nothing fell";
+    return (share > 0 ? fmt::format("no collapse; {:.2g} % of the mass fell", 100 * share) : "no collapse; no mass fell") +
+           moving_text(metrics);
   const Json* weight = find_key(metrics, "collapse.under_gravity");
   const bool under_gravity = weight && weight->is_boolean() && weight->get<bool>();
   const Json* direction = find_key(metrics, "collapse.direction");
@@ -50,6 +57,7 @@ std::string collapse_text(const Analysis& how, const Json& metrics) {
                          ? fmt::format("does not stand under {}; {:.0f} % of the mass fell by the end", under_text(metrics), 100 * share)
                          : fmt::format("collapse {}{}; {:.0f} % of the mass has fallen by the end",
                                        span_of_event(how, number_at(metrics, "collapse.time_s")), towards, 100 * share);
+  text += moving_text(metrics);
   const Json* mechanism = find_key(metrics, "collapse.mechanism.summary");
   const Json* course = find_key(metrics, "collapse.course");
   if (course && course->is_string() && *course != "") text += "\ncourse: " + course->get<std::string>();

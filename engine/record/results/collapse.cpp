@@ -8,6 +8,7 @@
 namespace erbs {
 namespace {
 
+constexpr double least_rise = 0.02;     // of the thinnest extent: what could rise by less is at rest or vibrates
 constexpr double straight_down = 1e-3;  // of the way: what moves sideways by less falls straight down, its direction is round-off
 
 bool counts(const Collapse& collapse, const Model& model, std::size_t b) { return model.kind[b] == Kind::moving && !collapse.thrown[b]; }
@@ -69,6 +70,18 @@ bool update(Collapse& collapse, const Model& model, const BlockPoses& pose, doub
   collapse.time = t;
   collapse.mechanism = mechanism_of(model, pose, t);
   return true;
+}
+
+double moving_fraction(const Collapse& collapse, const Model& model, const State& state) {
+  const double gravity = model.gravity.norm();
+  double restless = 0, moving = 0;  // kg
+  for (std::size_t b = 0; b < collapse.start.size() && gravity > 0; ++b) {
+    if (!counts(collapse, model, b)) continue;
+    moving += model.mass[b];
+    const bool rises = state.motion.v[b].squaredNorm() > 2 * gravity * least_rise * model.thickness[b];
+    if (rises && !down(collapse, model, state.pose, b)) restless += model.mass[b];
+  }
+  return moving > 0 ? restless / moving : 0;
 }
 
 std::string span_of_event(double output_dt, double frame_dt, double t) {

@@ -56,6 +56,10 @@ std::vector<std::uint8_t> thrown_blocks(const Scene& scene, const Model& model, 
 // the moment of collapse.
 bool update(Collapse& collapse, const Model& model, const BlockPoses& pose, double t, std::vector<int>* newly = nullptr);
 
+// Share of the moving mass that has not fallen, but moves relative to the ground, with a speed that would lift it by a fiftieth of its
+// thinnest extent. Above zero at the end of a run without a collapse, that run may have ended too early. Zero without gravity.
+double moving_fraction(const Collapse& collapse, const Model& model, const State& state);
+
 // "between 3.36 and 3.37 s": what is looked at when rows and frames are due, and found at the time t, came after the look before.
 std::string span_of_event(double output_dt, double frame_dt, double t);
 inline std::string span_of_event(const Analysis& how, double t) { return span_of_event(how.output_dt, how.frame_dt, t); }

@@ -106,6 +106,7 @@ Json to_json(const Metrics& m) {
   collapse["time_s"] = m.collapse.time_s ? Json(*m.collapse.time_s) : Json();
   collapse["direction"] = m.collapse.direction ? Json(*m.collapse.direction) : Json();
   collapse["fallen_fraction"] = m.collapse.fallen_fraction;
+  collapse["moving_fraction"] = m.collapse.moving_fraction;
   json["trust"] = {{"energy_residual", m.diagnostics.energy_residual},
                    {"energy_residual_time_s", m.diagnostics.energy_residual_time},
                    {"energy_residual_where", m.diagnostics.energy_residual_where},

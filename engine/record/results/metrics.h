@@ -44,6 +44,7 @@ struct Metrics {
     std::optional<double> time_s;
     std::optional<std::array<double, 2>> direction;  // unit vector, x and y
     double fallen_fraction = 0;
+    double moving_fraction = 0;     // share of mass that has not fallen, but still moves (results/collapse.h)
     bool moved = false;             // Analysis::stop_when_moved ended the run
     std::string course;             // in words (results/course.h)
     Json sequence = Json::array();  // { group, time_s, share }, in the order in which the groups fell

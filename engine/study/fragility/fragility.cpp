@@ -34,6 +34,9 @@ Fragility fragility_of(const Group& group, const std::string& method, const Frag
   leave_out(group.negative, fmt::format("{} is below 0, and an intensity lies above", plan.im));
   leave_out(group.wordy, fmt::format("{} is no number; take an im that is one", plan.im));
   leave_out(group.unclear, fmt::format("{} is neither 1 nor 0; give above, the number from which on it is a collapse", plan.collapse));
+  if (group.restless > 0)
+    say(fmt::format("{} counted as standing still moved at the end, and may fall later: try a longer duration",
+                    counted(group.restless, "run")));
   if (method == "runs" && group.incremental()) say("runs of one case are not independent, so that the bands are too narrow");
   if (method == "capacities" && out.fit.end == FitEnd::fitted && out.fit.observations < 20)
     say(fmt::format("{} cases are few: bands of 95 % hold some 91 %", out.fit.observations));

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
+#include <optional>
 #include <set>
 #include <tuple>
 
@@ -25,6 +26,7 @@ double number_of(const std::string& cell) {
 struct Columns {
   std::size_t im = 0, collapse = 0, status = 0;
   std::vector<std::size_t> damage, by, of_case, fall;
+  std::optional<std::size_t> moving;  // none where the study does not ask for it
 };
 
 Columns columns_of(const Sweep& sweep) {
@@ -42,6 +44,7 @@ Columns columns_of(const Sweep& sweep) {
   out.im = place_of(wanted.im), out.collapse = place_of(wanted.collapse), out.status = first_key + plan.collect.size();
   for (const std::string& key : wanted.damage) out.damage.push_back(place_of(key));
   for (const std::string& name : wanted.by) out.by.push_back(place_of(name));
+  if (std::find(plan.collect.begin(), plan.collect.end(), moving_key) != plan.collect.end()) out.moving = place_of(moving_key);
   if (wanted.falls)
     for (const char* key : fall_keys) out.fall.push_back(place_of(key));
   for (const std::string& name : params)
@@ -138,6 +141,7 @@ std::vector<Group> read_groups(const Sweep& sweep) {
     }
     Run run{im, wanted.above ? collapse > *wanted.above : collapse != 0, {}};
     for (const std::size_t i : at.damage) run.damage.push_back(number_of(cells[i]));
+    if (at.moving && !run.collapsed && number_of(cells[*at.moving]) > 0) ++counts[group].restless;
     if (wanted.falls && run.collapsed)
       run.time = number_of(cells[at.fall[0]]), run.direction = {number_of(cells[at.fall[1]]), number_of(cells[at.fall[2]])};
     const std::tuple<double, bool, double> place{im, run.collapsed, number_of(cells.front())};

@@ -35,6 +35,7 @@ struct Group {
   int unshaken = 0;  // runs at intensity zero, where the probability is zero by any fit
   int negative = 0;  // runs at an intensity below zero
   int wordy = 0;     // runs whose intensity is no number
+  int restless = 0;  // runs without a collapse that still move at their end
   int unclear = 0;   // runs that are neither 1 nor 0 where that tells a collapse
   std::vector<Interval> single_runs() const;
   std::vector<Interval> capacities() const;

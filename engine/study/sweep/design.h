@@ -92,6 +92,8 @@ struct FragilityPlan {
   bool falls = false;  // time and direction of the collapses are wanted
 };
 
+// Where the first key of metrics.json tells a collapse, the second tells whether what stands has come to rest.
+inline constexpr const char *collapsed_key = "collapse.collapsed", *moving_key = "collapse.moving_fraction";
 // The keys of metrics.json that falls takes: s, and the unit vector in plan.
 inline constexpr std::array fall_keys = {"collapse.time_s", "collapse.direction.0", "collapse.direction.1"};
 

@@ -78,6 +78,7 @@ void read_fragility(Arguments& table, study::Plan& plan) {
   if (!bisected && !is_varied(out.im)) collect(out.im);
   if (out.collapse != "verdict") collect(out.collapse);
   for (const std::string& key : out.damage) collect(key);
+  if ((out.collapse == "verdict" && plan.bisect ? plan.bisect->key : out.collapse) == study::collapsed_key) collect(study::moving_key);
   if (out.falls)
     for (const char* key : study::fall_keys) collect(key);
   plan.fragility = std::move(out);

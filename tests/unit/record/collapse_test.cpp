@@ -40,6 +40,26 @@ TEST_CASE("a block has fallen below half its thinnest extent from where it start
   CHECK(c.time == 1.5);
 }
 
+TEST_CASE("what could rise by a fiftieth of its thinnest extent still moves, unless it has fallen", "[record][collapse]") {
+  auto t = test::two_bricks();
+  t.model.gravity = {0, 0, -9.81};
+  t.state.motion.v.assign(4, Vec3::Zero());
+  Collapse c = watch_collapse(t.model, t.state.pose);
+  CHECK(moving_fraction(c, t.model, t.state) == 0);
+  const double rises = std::sqrt(2 * 9.81 * 0.002);  // m/s: v^2 / 2 g = .02 of .1 m
+  t.state.motion.v[2] = Vec3(0.6, 0, 0.8) * 0.999 * rises;
+  CHECK(moving_fraction(c, t.model, t.state) == 0);
+  t.state.motion.v[2] = Vec3(0.6, 0, -0.8) * 1.001 * rises;
+  CHECK(moving_fraction(c, t.model, t.state) == Approx(0.75));  // 3 kg of the 4 kg of moving mass
+  t.state.motion.v[0] = Vec3(9, 0, 0);                          // fixed
+  CHECK(moving_fraction(c, t.model, t.state) == Approx(0.75));
+  t.state.pose.u[2].z() = -0.051;
+  CHECK(moving_fraction(c, t.model, t.state) == 0);
+  t.state.pose.u[2].z() = 0;
+  t.model.gravity.setZero();
+  CHECK(moving_fraction(c, t.model, t.state) == 0);
+}
+
 TEST_CASE("a block falls along the gravity of its scene", "[record][collapse]") {
   auto t = test::two_bricks();
   t.model.gravity = {5, 0, 0};

@@ -83,6 +83,25 @@ TEST_CASE("a study without a collapse says so in words", "[sweep][fragility]") {
   CHECK_THAT(text, Catch::Contains("no collapse") && Catch::Contains("raise the intensities") && !Catch::Contains("nan"));
 }
 
+TEST_CASE("fragility tells runs that stand, but end in the middle of a fall", "[sweep][fragility]") {
+  FragilityStudy study;
+  const auto words = [&](double duration) {
+    study.write("rock.lua", R"(
+      local v = param('v', 1*m/s)
+      param('seed', 1)
+      material{ name = 'stone', density = 2000 }
+      ground{ z = 0 }
+      box{ name = 'rock', at = { 0, 0, 0 }, size = { .2, 1, 1 }, initial = { velocity = { v, 0, 0 } }, free = true, material = 'stone' }
+      analysis{ duration = )" + fmt::format("{} }}", duration));
+    REQUIRE(study.sweep("study{ scene = 'rock.lua', keep = 'none', vary = { grid{ seed = { 1, 2 }, v = { .1, 3, 4 } } },"
+                        "fragility = { im = 'v', collapse = 'collapse.collapsed' } }",
+                        {"--force"}) == 0);
+    return text_of(study.out() + "/fragility.csv");
+  };
+  CHECK_THAT(words(0.1), Catch::Contains("4 runs counted as standing still moved at the end, and may fall later"));
+  CHECK_THAT(words(4), !Catch::Contains("still moved"));
+}
+
 TEST_CASE("runs at intensity zero are no runs without an answer", "[sweep][fragility]") {
   FragilityStudy study;
   REQUIRE(study.sweep(R"(study{ scene = "tiny.lua", keep = "none", vary = { grid{ seed = { 1, 6, 12 }, pga = { 0, 1, 1.9 } } },
