@@ -8,6 +8,8 @@
 #include "engine/analysis/quasi_static/relaxation.h"
 #include "engine/analysis/start/prepare.h"
 #include "engine/base/text.h"
+#include "engine/base/units.h"
+#include "engine/loads/record/record_report.h"
 #include "engine/record/recorders/recorder.h"
 #include "engine/scene/effects.h"
 #include "lua/program/estimate.h"
@@ -39,12 +41,17 @@ void print_scene(const Scene& scene) {
   for (const std::string& note : scene.notes) say("  {}\n", note);
 }
 
-// Where each ground motion that ends leaves the ground.
+// How strong each ground motion is that the script does not give by a formula, and where those that end leave the ground.
 void print_motions(const Scene& scene) {
   for (const Load& load : scene.loads) {
     if (load.kind != Load::Kind::ground) continue;
     const double end = end_time(load.wave);
     const std::string kind = std::visit([](const auto& w) { return std::string(std::decay_t<decltype(w)>::wave_name); }, load.wave);
+    if (const auto* record = std::get_if<Record>(&load.wave)) {
+      const RecordReport all = report(*record);
+      say("  record along ({:g}, {:g}, {:g}): PGA {:.3g} g, PGV {:.3g} m/s, PGD {:.3g} m, as scaled\n", load.direction.x(),
+          load.direction.y(), load.direction.z(), std::abs(all.pga.value) / standard_g, std::abs(all.pgv.value), std::abs(all.pgd.value));
+    }
     if (!std::isfinite(end)) continue;
     say("  ground motion {} along ({:g}, {:g}, {:g}): ends at {:.4g} s with the velocity {:.3g} m/s and the displacement {:.3g} m\n", kind,
         load.direction.x(), load.direction.y(), load.direction.z(), end, integral(load.wave, end), second_integral(load.wave, end));

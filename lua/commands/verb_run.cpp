@@ -240,9 +240,15 @@ int complete(Script& script, const std::string& path, const std::string& directo
   return code;
 }
 
-// A full disk ends a run. With a checkpoint, the run can resume once there is room.
+// A full disk ends a run, and so does a folder that is taken away. With a checkpoint, the run can resume once there is room.
 int no_room(const WriteError& trouble, const std::string& directory) {
   std::error_code ignored;
+  if (!std::filesystem::is_regular_file(run_file(directory, "manifest.json"), ignored)) {
+    tell(stderr, fmt::format("{}: the folder was moved or removed during the run; if it was moved, go on from its last checkpoint with "
+                             "erbs run DIR --resume, or start anew",
+                             trouble.what()));
+    return exit_usage;
+  }
   const bool checkpoint = std::filesystem::is_regular_file(run_file(directory, "checkpoint.bin"), ignored);
   tell(stderr, fmt::format("{}; make room, or raise the limit that is reached, and {}", trouble.what(),
                            checkpoint ? "go on from the last checkpoint: " + resume_line(directory) : "start anew with --force"));

@@ -196,8 +196,8 @@ void Overlay::draw_record(Image& image, double t) const {
   const double now_shown = std::round(100 * value_at(r, t) / one) / 100 + 0.0;  // no -0.00
   bold_.draw(image, fmt::format("{:+.2f}{}", now_shown, unit), x, top + 49 * u - higher, 17 * u, text_ink);
   const std::string peak = fmt::format("{:.3g}{}", r.peak / one, unit);
-  fitted(tilting ? "peak " + peak : "recorded peak", top + 71 * u - 2 * higher);  // rows may miss that of the wave
-  if (!tilting) fitted(peak, top + 78 * u);
+  fitted(!tilting ? "peak shown" : (run_.multipliers.empty() ? "peak " : "stood at ") + peak, top + 71 * u - 2 * higher);
+  if (!tilting) fitted(peak, top + 78 * u);  // rows may miss that of the wave
   const double upper = top + (run_.marks.empty() ? 6 : 18) * u, lower = bottom - 19 * u, thin = 0.65 * u, now = column(t);
   const auto row = [&](double value) { return upper + (lower - upper) * (range_.high - value) / (range_.high - range_.low); };
   fill_box(image, strip_left_, row(0) - 0.5, strip_right_, row(0) + 0.5, {150, 156, 163, 0.8});
@@ -216,13 +216,17 @@ void Overlay::draw_record(Image& image, double t) const {
 void Overlay::draw_times(Image& image, double top, double bottom, double now) const {
   const bool states = !run_.multipliers.empty() && run_.state_dt > 0;
   const double u = unit_, one = states ? run_.state_dt : 1, step = round_length(end_time_ / one * 110 * u / (strip_right_ - strip_left_));
-  for (int i = 0; i * step * one <= end_time_ * (1 + 1e-9); ++i) {
+  const double last_state = states ? one * (static_cast<double>(run_.multipliers.size()) - 1) : end_time_;  // a fall may follow
+  const auto label = [&](const std::string& text, double x, Font::Align align) {
+    const double size = legible(11, u), base = bottom + std::max(14 * u, 4 * u + 0.9 * size);  // clear of the tick
+    regular_.draw(image, text, x, base, size, quiet_ink, align);
+  };
+  if (column(end_time_) - column(last_state) > 60 * u) label("fall", 0.5 * (column(end_time_) + column(last_state)), Font::Align::middle);
+  for (int i = 0; i * step * one <= std::min(last_state, end_time_) * (1 + 1e-9); ++i) {
     const double x = column(i * step * one);
     fill_box(image, x - 0.5 * u, bottom, x + 0.5 * u, bottom + 3 * u, quiet_ink);
     const Font::Align align = x + 14 * u > strip_right_ ? Font::Align::right : Font::Align::middle;
-    const double size = legible(11, u), base = bottom + std::max(14 * u, 4 * u + 0.9 * size);  // clear of the tick
-    regular_.draw(image, fmt::format("{}{:g}{}", states && i == 0 ? "state " : "", i * step, states ? "" : " s"), x, base, size, quiet_ink,
-                  align);
+    label(fmt::format("{}{:g}{}", states && i == 0 ? "state " : "", i * step, states ? "" : " s"), x, align);
   }
   double last = strip_left_;  // end of the previous name
   for (const Mark& mark : run_.marks) {

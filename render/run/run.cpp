@@ -173,7 +173,7 @@ Run read_run(const std::string& dir) {
       const double end = (static_cast<double>(curve.rows()) - 0.5) * run.state_dt;
       run.tilt.peak = 0;
       for (std::size_t i = 0; i < run.tilt.t.size() && run.tilt.t[i] <= end; ++i)
-        run.tilt.peak = std::max(run.tilt.peak, std::fabs(run.tilt.a[i]));
+        if (std::fabs(run.tilt.a[i]) > std::fabs(run.tilt.peak)) run.tilt.peak = run.tilt.a[i];
     }
   }
   if (const std::string events = run_file(dir, "events.csv"); std::filesystem::exists(events))

@@ -21,7 +21,7 @@ struct GroundRecord {
   Vec3 direction = Vec3::Zero();
   std::vector<double> t;  // s
   std::vector<double> a;  // m/s2
-  double peak = 0;        // m/s2, largest absolute value
+  double peak = 0;        // m/s2, largest absolute value; of a tilt by states with its sign
 };
 
 // Gravity of a test that tilts; empty where it keeps its direction.

@@ -131,6 +131,9 @@ void check_run_folder(const std::string& dir, Existing existing) {
       return;
     case Existing::resume:
       if (!there) throw Error(fmt::format("nothing to resume: there is no folder \"{}\"; run without --resume", dir));
+      if (is_run_folder(dir) && !checkpoint && fs::is_regular_file(run_file(dir, "metrics.json"), failed))
+        throw Error(
+            fmt::format("nothing to resume: the run in \"{}\" has come to its end; render or plot it, or start it anew with --force", dir));
       if (!is_run_folder(dir) || !checkpoint)
         throw Error(fmt::format("nothing to resume: \"{}\" holds no checkpoint.bin; start anew with --force", dir));
       return;

@@ -94,6 +94,23 @@ TEST_CASE("every signal that asks a run to end leaves a checkpoint, and it goes 
   CHECK(hash_in(bench.out()) == hash_in(whole.out()));
   for (const char* file : {"/histories.csv", "/energy.csv", "/events.csv"})
     CHECK(text_of(bench.out() + file) == text_of(whole.out() + file));
+  CHECK(whole.run(sliding, {"-q", "--no-figures", "--resume"}) == 2);  // it left no checkpoint
+  CHECK(contains(whole.said, "has come to its end"));
+}
+
+TEST_CASE("a run whose folder is moved says so, and goes on from there", "[endings]") {
+  Bench whole, bench;
+  REQUIRE(whole.run(sliding, {"-q", "--no-figures", "-D", "duration=20"}) == 0);
+  const std::string log = (bench.folder / "log").string(), moved = (bench.folder / "moved").string();
+  const Child run = start(bench.command({"run", bench.scene(sliding), "-o", bench.out(), "-q", "--no-figures", "-D", "duration=20",
+                                         "--checkpoint-every", "0.1"}),
+                          log);
+  wait_until([&] { return fs::exists(bench.out() + "/checkpoint.bin"); });
+  fs::rename(bench.out(), moved);
+  CHECK(wait_for(run) == 2);
+  CHECK(contains(text_of(log), "was moved or removed during the run"));
+  REQUIRE(bench.erbs({"run", moved, "--resume", "-q", "--no-figures"}) == 0);
+  CHECK(hash_in(moved) == hash_in(whole.out()));
 }
 
 TEST_CASE("a run goes on with its own options only", "[endings]") {

@@ -273,6 +273,16 @@ TEST_CASE("what masonry_stiffness did stands in check, in the log and in the man
   CHECK(contains(notes[0].get<std::string>(), "scene.lua:4: " + sentence));
 }
 
+TEST_CASE("check says how strong a record is, as scaled", "[program]") {
+  Bench bench;
+  bench.write("shake.csv", "time_s,acceleration_m_s2\n0,0\n.1,-2\n.2,1\n.3,0\n");
+  const std::string text = four_bricks() +
+                           "joint{ law = dry{ kn = 1e8, mu = .3 } }\nanalysis{ duration = .1 }\n"
+                           "ground_motion{ wave = record{ file = 'shake.csv', peak = .3*g }, direction = 'y' }\n";
+  CHECK(bench.erbs({"check", bench.scene(text)}) == 0);
+  CHECK(contains(bench.said, "record along (0, 1, 0): PGA 0.3 g, PGV 0.221 m/s"));  // 2.943 m/s2 (.1 + .1 / 2) s / 2
+}
+
 TEST_CASE("a param that is a word stands in check, in the log and in the manifest", "[program]") {
   Bench bench;
   const std::string way = "param way = \"drop\"  -- what the brick does",
