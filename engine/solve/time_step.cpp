@@ -166,7 +166,7 @@ void Solver::plan_macro_step(const SamplePlan& plan) {
 // Event rate (1/s) of intact dry joints that are about to open for the first time. The kernel of intact joints evaluates nothing but their
 // limits (`intact.h`), so they are evaluated here. In a structure of many joints the first opening of one is no significant event. In a
 // structure of few joints it is, because a soft joint allows a long step. A run with `start = "rest"` has no gravity in its joints and
-// bounces from the first step on; a change of dt would then err by more than an opening (`may_grow()`), as in all that vibrates strongly.
+// bounces from the first step on, which `event_rate_at_start` has shortened.
 double Solver::event_rate_of_first_openings() const {
   double event_rate = 0;
   if (model_.njoint > few_joints || !(state_.time.last_dt > 0) || model_.analysis.start == "rest") return event_rate;
@@ -214,11 +214,12 @@ double Solver::event_rate_of_breaks() {
 // Event rate (1/s) of intact joints whose blocks move apart or together at the start, so fast that in two steps they may yield, at once or
 // as they swing back: until they have cracked nothing else predicts them. They err as one-sided springs do, each by its whole stiffness.
 // A joint may also start beyond its limits, as that of a block that is let go on its edge. The strip that bears grows with the load, and a
-// swing on it errs as a change of the step does.
+// swing on it errs as a change of the step does. So do dry beds of few joints whose load acts at once: they open as they first swing.
 double Solver::event_rate_at_start() const {
   const double allowance = event_allowance(model_, state_);
   double event_rate = 0;
   bool tilted = false;
+  const bool sudden = model_.analysis.start == "rest" && model_.njoint <= few_joints;
   for (int j = 0; j < model_.njoint && allowance > 0; ++j) {
     const JointType& type = *model_.joint[z(j)].type;
     const JointStage stage = state_.joints.stage[z(j)];
@@ -230,7 +231,8 @@ double Solver::event_rate_at_start() const {
       for (int i = 0; i < 6; ++i) gap[i] = now.gap[i] + time * now.rate[i];
       return scalar::face_bound(limits, gap, type.half_s, type.half_t, type.radius) > 0;
     };
-    tilted = tilted || may_yield(0);
+    const bool opens = sudden && stage == JointStage::intact && !model_.laws[z(type.law)].has_bond();
+    tilted = tilted || opens || may_yield(0);
     if (stage != JointStage::intact) continue;
     double power = 0;
     for (int i = 0; i < 6; ++i) power += type.stiffness[i] * now.rate[i] * now.rate[i];
