@@ -39,16 +39,12 @@ std::vector<Body> bodies_of(const MotionScene& scene, const Run& run) {
 
 void derive_energies(const MotionReader& reader, const std::vector<Body>& bodies, MotionFrame& frame) {
   frame.derived.assign(bodies.size(), 0);
-  const auto [f, g] = frames_around(reader, frame.t);
-  if (!(g.t > f.t)) return;
+  const Rates rates = rates_at(reader, nullptr, frame.t);
   for (std::size_t b = 0; b < bodies.size(); ++b) {
-    const float *from = &f.poses[7 * b], *to = &g.poses[7 * b];
-    const Vec3 velocity = (Eigen::Map<const Eigen::Vector3f>(to) - Eigen::Map<const Eigen::Vector3f>(from)).cast<double>() / (g.t - f.t);
-    Eigen::Quaterniond turn = turn_of(from).conjugate() * turn_of(to);  // in the axes of the block, in which its inertia is constant
-    if (turn.w() < 0) turn.coeffs() *= -1;
-    const Eigen::AngleAxisd rotation(turn);
-    const Vec3 spin = rotation.angle() / (g.t - f.t) * rotation.axis();
-    frame.derived[b] = static_cast<float>(0.5 * bodies[b].mass * velocity.squaredNorm() + 0.5 * spin.dot(bodies[b].inertia * spin));
+    const Vec3 spin =
+        turn_of(&frame.poses[7 * b]).conjugate() * rates.spin[b];  // in the axes of the block, in which its inertia is constant
+    frame.derived[b] =
+        static_cast<float>(0.5 * bodies[b].mass * rates.velocity[b].squaredNorm() + 0.5 * spin.dot(bodies[b].inertia * spin));
   }
 }
 

@@ -48,10 +48,11 @@ Schedule schedule_of(const Movie& movie, const std::vector<double>& recorded);
 // State at time t: a recorded frame, or an interpolation of two (positions linear, rotations along the shortest arc).
 MotionFrame frame_at(const MotionReader& reader, double t);
 
-// The recorded frames before and after time t (s), or the last two; twice the same if the run has one frame.
-std::pair<MotionFrame, MotionFrame> frames_around(const MotionReader& reader, double t);
+// Velocities and spins at time t (s): the slope of the parabola through the recorded frame nearest to it and those beside that one, which
+// is that of free flight. Zero if the run has one frame. `excerpt`: of the blocks that are drawn.
+Rates rates_at(const MotionReader& reader, const Excerpt* excerpt, double t);
 
-// Fills frame.derived with the speeds (m/s) of the centroids between the frames around its time.
+// Fills frame.derived with the speeds (m/s) of the centroids at its time.
 void derive_speeds(const MotionReader& reader, MotionFrame& frame);
 
 // Fills frame.derived with the largest mean compression, or shear stress, of the joints of each block (Pa). Error if the run kept none.

@@ -100,8 +100,7 @@ MotionFrame Scenery::drawn(double t) const {
 Rates Scenery::rates(double t) const {
   if (mechanism_) return *mechanism_;
   if (movie_.marks.mechanism.empty()) return {};
-  const auto [before, after] = frames_around(reader_, t);
-  return rates_between(excerpt_of(excerpt_, before), excerpt_of(excerpt_, after));
+  return rates_at(reader_, &excerpt_, t);
 }
 
 Marks Scenery::marks(double t) const {

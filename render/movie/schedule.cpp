@@ -75,22 +75,31 @@ MotionFrame frame_at(const MotionReader& reader, double t) {
   return f;
 }
 
-std::pair<MotionFrame, MotionFrame> frames_around(const MotionReader& reader, double t) {
+Rates rates_at(const MotionReader& reader, const Excerpt* excerpt, double t) {
   const std::vector<double>& times = reader.times();
-  if (times.size() < 2) return {reader.read(0), reader.read(0)};
-  const auto found = static_cast<std::size_t>(std::upper_bound(times.begin(), times.end(), t + 1e-9) - times.begin());
-  const std::size_t after = std::clamp<std::size_t>(found, 1, times.size() - 1);
-  return {reader.read(static_cast<int>(after) - 1), reader.read(static_cast<int>(after))};
+  const auto read = [&](std::size_t i) {
+    MotionFrame frame = reader.read(static_cast<int>(i));
+    return excerpt ? excerpt_of(*excerpt, std::move(frame)) : frame;
+  };
+  if (times.size() < 3) return rates_between(read(0), read(times.size() - 1));
+  const auto after = static_cast<std::size_t>(std::lower_bound(times.begin(), times.end(), t) - times.begin());
+  const std::size_t nearest = after > 0 && (after == times.size() || t - times[after - 1] < times[after] - t) ? after - 1 : after;
+  const std::size_t i = std::clamp<std::size_t>(nearest, 1, times.size() - 2);
+  const MotionFrame f = read(i - 1), g = read(i), h = read(i + 1);
+  Rates rates = rates_between(f, g);
+  const Rates later = rates_between(g, h);
+  const double share = std::clamp((2 * t - f.t - g.t) / (h.t - f.t), -1.0, 2.0);  // both are means of their intervals
+  for (std::size_t b = 0; b < rates.velocity.size(); ++b) {
+    rates.velocity[b] += share * (later.velocity[b] - rates.velocity[b]);
+    rates.spin[b] += share * (later.spin[b] - rates.spin[b]);
+  }
+  return rates;
 }
 
 void derive_speeds(const MotionReader& reader, MotionFrame& frame) {
-  frame.derived.assign(frame.poses.size() / 7, 0);
-  const auto [f, g] = frames_around(reader, frame.t);
-  if (!(g.t > f.t)) return;
-  const auto seconds = static_cast<float>(g.t - f.t);
-  for (std::size_t b = 0; b < frame.derived.size(); ++b)
-    frame.derived[b] =
-        (Eigen::Map<const Eigen::Vector3f>(&g.poses[7 * b]) - Eigen::Map<const Eigen::Vector3f>(&f.poses[7 * b])).norm() / seconds;
+  const Rates rates = rates_at(reader, nullptr, frame.t);
+  frame.derived.clear();
+  for (const Vec3& velocity : rates.velocity) frame.derived.push_back(static_cast<float>(velocity.norm()));
 }
 
 void derive_stresses(const MotionReader& reader, bool shear, MotionFrame& frame) {

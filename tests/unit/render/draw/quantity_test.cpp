@@ -58,6 +58,24 @@ TEST_CASE("kinetic energy is that of translation and rotation", "[render][quanti
   CHECK(map_share(5, 10, Coloring::speed) == 0.5);
 }
 
+TEST_CASE("speeds of a fall and of a spin that grows are those of their instant", "[render][quantity]") {
+  const test::Folder dir;
+  MotionWriter writer(dir.path.string(), box_on_base());
+  for (const double t : {0.0, 0.0401, 0.08, 0.1202}) {
+    MotionFrame f{t, {0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0}, {}, {}, {}};
+    f.poses[9] = static_cast<float>(-0.5 * 9.81 * t * t);
+    f.poses[10] = static_cast<float>(std::cos(5 * t * t)), f.poses[13] = static_cast<float>(std::sin(5 * t * t));  // 20 rad/s2 about z
+    writer.write(f);
+  }
+  writer.close();
+  const MotionReader reader(dir.path.string());
+  for (const double t : {0.0, 0.02, 0.0401, 0.07, 0.08, 0.1, 0.1202}) {
+    const Rates rates = rates_at(reader, nullptr, t);
+    CHECK(rates.velocity[1].z() == Approx(-9.81 * t).margin(1e-5));
+    CHECK(rates.spin[1].z() == Approx(20 * t).margin(1e-4));
+  }
+}
+
 TEST_CASE("a block has the colour of its most stressed joint", "[render][quantity]") {
   MotionScene scene;
   const int part = share_shape(scene, {{0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1}, {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}}});
