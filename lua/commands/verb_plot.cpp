@@ -182,7 +182,7 @@ std::string note_of(const PlotCommand& command, CurveKind kind) {
   return note + fmt::format("{}{:g} s to {:g} s", note.empty() ? "" : ", ", span.from, span.to);
 }
 
-// The frames of a run within the span; without a span until its collapse, since the drift of debris means nothing.
+// The frames of a run within the span; without a span until its collapse, or the last state of a push, since the drift of debris means nothing.
 DriftProfile profile_of(const std::string& folder, const PlotCommand& command) {
   const MotionReader reader(folder);
   TimeSpan span;
@@ -191,6 +191,8 @@ DriftProfile profile_of(const std::string& folder, const PlotCommand& command) {
     const Json metrics = read_metrics(folder);
     const Json* fall = find_key(metrics, "collapse.time_s");
     if (fall != nullptr && fall->is_number()) span.to = fall->get<double>();
+    const double states = number_at(metrics, "capacity.states");  // a frame each, before those of the fall
+    if (states >= 1 && states <= double(reader.times().size())) span.to = reader.times()[std::size_t(states) - 1];
   }
   std::vector<MotionFrame> frames;
   for (std::size_t i = 0; i < reader.times().size(); ++i)

@@ -59,9 +59,9 @@ std::string script_for(const Figure& figure, const std::string& directory) {
          curve.label});
   }
   if (panel.series.empty()) return "";
-  panel.key = "below spacing 1.4";
-  panel.settings = fmt::format("set title {} tc rgb '#111111'\n", gnuplot_quoted(figure.title));
-  panel.x.label = figure.x, panel.y.label = figure.y;
+  panel.key = "below spacing 1.4 noenhanced";
+  panel.settings = fmt::format("set title {} noenhanced tc rgb '#111111'\n", gnuplot_quoted(figure.title));
+  panel.x.label = figure.x, panel.y.label = figure.y, panel.x.look = panel.y.look = "noenhanced";
   sheet.panels = {panel};
   return fmt::format("# {}\n", Json(figure.title).dump(-1, ' ', false, Json::error_handler_t::replace)) + script_of(sheet);
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <filesystem>
 #include <map>
+#include <numeric>
 
 #include "engine/base/error.h"
 #include "engine/base/text.h"
@@ -40,17 +41,25 @@ constexpr std::array<const char*, 8> colors{"#0072b2", "#d55e00", "#009e73", "#c
 
 std::string name_of(const CsvTable& table, int column) { return words_of(table.names[static_cast<std::size_t>(column)]); }
 
+constexpr std::size_t most_names = 2 * colors.size();  // beside a panel; what is more is grey, and lies behind
+
 // All curves of a panel. The name of the file is quoted, since a run folder may come from anywhere.
 std::vector<plot::Series> curves(const std::string& file, const CsvTable& table, const Panel& panel, const std::string& value) {
-  std::vector<plot::Series> all;
+  std::vector<plot::Series> all, behind;
+  const std::size_t named = panel.columns.size() > most_names ? most_names - 1 : most_names;
   for (const int column : panel.columns) {
     const std::size_t i = all.size();
-    all.push_back({fmt::format("{} every {}::1 using 1:({})", gnuplot_quoted(file), std::max<std::size_t>(1, table.rows() / 6000),
-                               fmt::format(fmt::runtime(value), fmt::arg("c", column + 1), fmt::arg("f", panel.factor))),
-                   fmt::format("lines lw 1.3 lc rgb '{}'{}", colors[i % colors.size()], i >= colors.size() ? " dashtype 2" : ""),
-                   name_of(table, column)});
+    const std::string source =
+        fmt::format("{} every {}::1 using 1:({})", gnuplot_quoted(file), std::max<std::size_t>(1, table.rows() / 6000),
+                    fmt::format(fmt::runtime(value), fmt::arg("c", column + 1), fmt::arg("f", panel.factor)));
+    if (i == named) behind.push_back({source, "lines lw 1 lc rgb '#cccccc'"});
+    else
+      all.push_back({source, fmt::format("lines lw 1.3 lc rgb '{}'{}", colors[i % colors.size()], i >= colors.size() ? " dashtype 2" : ""),
+                     name_of(table, column)});
   }
-  return all;
+  if (!behind.empty()) all.push_back({"1/0", "lines lw 1 lc rgb '#cccccc'", fmt::format("and {} more", behind.size())});
+  behind.insert(behind.end(), all.begin(), all.end());
+  return behind;
 }
 
 // Tics at a fifth of the height. A quantity without a unit is labelled by its column name.
@@ -74,9 +83,11 @@ void add_marks(const Run& run, double last_time, bool named, plot::Panel& p) {
   }
 }
 
-// A sheet of `rows` by `columns` panels, with room at the right of each for names of `name_length` letters.
-plot::Figure sheet(std::size_t rows, std::size_t columns, std::size_t name_length, const std::string& title) {
-  plot::Figure figure{columns == 1 ? 1000 : 850 * double(columns), 70 + 210 * double(rows)};
+constexpr double above_panels = 22, panel_height = 210;  // px
+
+// A sheet of panels that are together `height` px high, with room at the right of each for names of `name_length` letters.
+plot::Figure sheet(double height, std::size_t columns, std::size_t name_length, const std::string& title) {
+  plot::Figure figure{columns == 1 ? 1000 : 850 * double(columns), height};
   figure.settings = fmt::format(
       "set datafile separator comma\nset datafile missing 'nan'\nset zeroaxis lc rgb '#b0b0b0' lt 1 lw 0.8\n"
       "set style textbox opaque noborder fc rgb '#ffffff' margins 0.4,0.2\nset lmargin 12\nset rmargin {}\n",
@@ -95,12 +106,17 @@ plot::Figure histories_figure(const std::string& csv, const CsvTable& table, con
   std::size_t longest = 0;
   for (const Panel& panel : panels)
     for (int c : panel.columns) longest = std::max(longest, name_of(table, c).size());
-  plot::Figure figure = sheet(rows, columns, longest, run.title);
-  const double width = 1 / double(columns), height = (1 - 22 / figure.height) / double(rows);
+  std::vector<double> heights(rows, panel_height);  // px: gnuplot writes the names of a panel beside each other if they do not fit below
+  for (std::size_t i = 0; i < panels.size(); ++i)
+    heights[i % rows] = std::max(heights[i % rows], 95 + 21 * double(std::min(panels[i].columns.size(), most_names)));
+  plot::Figure figure = sheet(std::accumulate(heights.begin(), heights.end(), above_panels + 48), columns, longest, run.title);
+  const double width = 1 / double(columns), share = (1 - above_panels / figure.height) / (figure.height - above_panels - 48);
   for (std::size_t i = 0; i < panels.size(); ++i) {
     plot::Panel p;
-    const double left = double(i / rows) * width, bottom = double(rows - 1 - i % rows) * height;
-    p.cell = {left, left + width, bottom, bottom + height};
+    const std::size_t row = i % rows;
+    const double left = double(i / rows) * width,
+                 bottom = share * std::accumulate(heights.begin() + std::ptrdiff_t(row) + 1, heights.end(), 0.0);
+    p.cell = {left, left + width, bottom, bottom + share * heights[row]};
     p.key = beside;
     p.x = {"", fmt::format("[0:{}]", last_time), "", "", "noenhanced"};
     p.y = vertical(table, panels[i]);
@@ -127,7 +143,7 @@ plot::Figure energy_figure(const std::string& csv, const CsvTable& table, const 
   const double last_time = table.columns[0].back();
   const int residual = table.find("residual_relative");
   const double worst = residual >= 0 ? peak_of(table, {residual}) : 0;
-  plot::Figure figure = sheet(small.columns.empty() ? 3 : 4, 1, 18, run.title + ": energy");
+  plot::Figure figure = sheet(70 + panel_height * (small.columns.empty() ? 3 : 4), 1, 18, run.title + ": energy");
   const double top = 1 - 30 / figure.height, rest = small.columns.empty() ? 0.36 : 0.27, middle = small.columns.empty() ? rest : 0.54;
   plot::Panel above, between, below;
   above.cell = {0, 1, middle, top};

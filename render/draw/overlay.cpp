@@ -9,18 +9,6 @@
 namespace erbs::render {
 namespace {
 
-constexpr Ink quiet_ink{95, 102, 110, 1}, accent{176, 48, 28, 1};
-constexpr double margin = 22;  // in rows of a picture with 720 rows, as all lengths here
-
-// The record at time t: linear between rows, zero outside.
-double value_at(const GroundRecord& r, double t) {
-  if (r.t.empty() || t < r.t.front() || t > r.t.back()) return 0;
-  const auto after = static_cast<std::size_t>(std::upper_bound(r.t.begin(), r.t.end(), t) - r.t.begin());
-  if (after == r.t.size()) return r.a.back();
-  const double s = (t - r.t[after - 1]) / (r.t[after] - r.t[after - 1]);
-  return r.a[after - 1] + s * (r.a[after] - r.a[after - 1]);
-}
-
 // "mm/s" of "20 mm/s"
 std::string unit_of_number(const std::string& text) { return text.substr(text.find_last_of(' ') + 1); }
 
@@ -60,9 +48,6 @@ const char* quantity_name(Coloring coloring) {
   }
 }
 
-// Size (px) of small type: in pictures of 360 rows 9.4 in place of 8.3, which H.264 blurs.
-double legible(double size, double unit) { return std::max(size * unit, std::min(12.5 * unit, 9.4)); }
-
 }  // namespace
 
 std::string length_text(double m) {
@@ -72,9 +57,13 @@ std::string length_text(double m) {
                      : fmt::format("{:.3g} \u00b5m", 1e6 * m);
 }
 
-double overlay_unit(int height) { return std::max(height / 720.0, std::min(0.75, height / 480.0)); }
-double overlay_top(int height) { return 58.0 * overlay_unit(height); }
-double overlay_bottom(int height, bool with_record) { return (with_record ? 116.0 : 34.0) * overlay_unit(height); }
+double legible(double size, double unit) { return std::max(size * unit, std::min(12.5 * unit, 9.4)); }
+
+double overlay_unit(int width, int height) {
+  return std::min(std::max(height / 720.0, std::min(0.75, height / 480.0)), std::max(width / 640.0, 0.2));
+}
+double overlay_top(int width, int height) { return 58.0 * overlay_unit(width, height); }
+double overlay_bottom(int width, int height, bool with_record) { return (with_record ? 116.0 : 34.0) * overlay_unit(width, height); }
 
 Overlay::Overlay(const Run& run, const Show& show, const Look& look, const std::string& camera, double slow)
     : run_(run),
@@ -82,29 +71,13 @@ Overlay::Overlay(const Run& run, const Show& show, const Look& look, const std::
       look_(look),
       camera_(camera),
       slow_(slow),
-      unit_(look.unit > 0 ? look.unit : overlay_unit(look.height)),
+      unit_(look.unit > 0 ? look.unit : overlay_unit(look.width, look.height)),
       legend_top_(below_title * unit_),
       regular_(Font::Face::regular),
       bold_(Font::Face::bold) {
   std::replace(camera_.begin(), camera_.end(), '_', ' ');
   if (camera_ == "own") camera_.clear();  // a camera given after the run has no name to show
-  strip_left_ = (margin + 128) * unit_;
-  strip_right_ = look.width - (margin + 12) * unit_;
-  const GroundRecord& r = run.strip();
-  end_time_ = r.t.empty() ? 0 : r.t.back();
-  if (r.axis.empty() || end_time_ <= 0) return;
-  const auto columns = static_cast<std::size_t>(std::max(1.0, strip_right_ - strip_left_));
-  const double per_column = end_time_ / static_cast<double>(columns);
-  std::size_t row = 0;
-  for (std::size_t c = 0; c < columns; ++c) {
-    const double t0 = static_cast<double>(c) * per_column, t1 = std::min(t0 + per_column, end_time_);
-    const double a0 = value_at(r, t0), a1 = value_at(r, t1);
-    Reach reach{std::min(a0, a1), std::max(a0, a1)};
-    for (; row < r.t.size() && r.t[row] < t1; ++row)
-      if (r.t[row] >= t0) reach = {std::min(reach.low, r.a[row]), std::max(reach.high, r.a[row])};
-    strip_.push_back(reach);
-    range_ = {std::min(range_.low, reach.low), std::max(range_.high, reach.high)};
-  }
+  reduce_record();
 }
 
 void Overlay::see(const View& view) {
@@ -113,7 +86,7 @@ void Overlay::see(const View& view) {
 }
 
 void Overlay::draw_legends(Image& image, const std::vector<MarkRow>& marks) const {
-  draw_mark_legend(image, marks, draw_legend(image), margin, unit_, regular_);
+  draw_mark_legend(image, marks, draw_legend(image), border, unit_, regular_);
 }
 
 void Overlay::draw_in_tile(Image& image, double t, const View& view) {
@@ -122,8 +95,8 @@ void Overlay::draw_in_tile(Image& image, double t, const View& view) {
   draw_axes(image, t);
   const double u = unit_, size = 13 * u, width = regular_.width(camera_, size);
   if (camera_.empty()) return;
-  fill_box(image, margin * u - 10 * u, 12 * u, margin * u + width + 10 * u, 36 * u, panel);
-  regular_.draw(image, camera_, margin * u, 29 * u, size, text_ink);
+  fill_box(image, border * u - 10 * u, 12 * u, border * u + width + 10 * u, 36 * u, panel);
+  regular_.draw(image, camera_, border * u, 29 * u, size, text_ink);
 }
 
 void Overlay::draw_around_tiles(Image& image, double t, const std::vector<MarkRow>& marks, double legend_top) {
@@ -145,20 +118,20 @@ void Overlay::draw(Image& image, double t, const View& view, const std::vector<M
 void Overlay::draw_title(Image& image, double t) const {
   const double u = unit_, base = 36 * u;
   fill_fade(image, 0, static_cast<int>(60 * u), {250, 251, 252, 0.75}, 0.0);
-  bold_.draw(image, clock_text(run_, t), image.width - margin * u, base, 24 * u, text_ink, Font::Align::right);
+  bold_.draw(image, clock_text(run_, t), image.width - border * u, base, 24 * u, text_ink, Font::Align::right);
   std::string beside = run_.status.empty() ? camera_ : run_.status + "   " + camera_;
   if (std::abs(slow_ - 1) > 0.02)
     beside += slow_ > 1 ? fmt::format("   slow motion {:.3g} : 1", slow_) : fmt::format("   time lapse 1 : {:.3g}", 1 / slow_);
   if (!show_.cut.empty()) beside = show_.cut + "   " + beside;
   if (look_.magnify != 1) beside = fmt::format("displacements x {:g}   ", look_.magnify) + beside;
   // Text beside the clock must not move: it ends at the start of the widest clock text.
-  const double right = image.width - margin * u - bold_.width(widest_clock(run_), 24 * u) - 18 * u;
+  const double right = image.width - border * u - bold_.width(widest_clock(run_), 24 * u) - 18 * u;
   regular_.draw(image, beside, right, base, 14 * u, quiet_ink, Font::Align::right);
   // A long title is drawn smaller, then on two lines; what these cannot hold is cut.
-  const double room = right - regular_.width(beside, 14 * u) - 2 * margin * u;
+  const double room = right - regular_.width(beside, 14 * u) - 2 * border * u;
   const double fitting = 21 * u * room / std::max(1.0, bold_.width(run_.title, 21 * u));
   if (fitting >= 16 * u) {
-    bold_.draw(image, run_.title, margin * u, base, std::min(fitting, 21 * u), text_ink);
+    bold_.draw(image, run_.title, border * u, base, std::min(fitting, 21 * u), text_ink);
     return;
   }
   const double size = 15 * u;
@@ -173,79 +146,8 @@ void Overlay::draw_title(Image& image, double t) const {
   const std::string first = cut(run_.title, "");
   std::string rest = run_.title.substr(first.size());
   rest.erase(0, rest.find_first_not_of(' '));
-  bold_.draw(image, first, margin * u, base - 10 * u, size, text_ink);
-  if (!rest.empty()) bold_.draw(image, cut(rest, " ..."), margin * u, base + 10 * u, size, text_ink);
-}
-
-double Overlay::column(double t) const { return strip_left_ + std::clamp(t / end_time_, 0.0, 1.0) * (strip_right_ - strip_left_); }
-
-void Overlay::draw_record(Image& image, double t) const {
-  const double u = unit_, height = 88 * u, bottom = image.height - 14 * u, top = bottom - height;
-  fill_box(image, margin * u, top, image.width - margin * u, bottom, panel);
-  const double x = (margin + 14) * u;
-  const GroundRecord& r = run_.strip();
-  const bool tilting = run_.record.axis.empty();
-  const double one = tilting ? 1 : standard_g;
-  const char* unit = tilting ? "\u00b0" : " g";
-  const auto fitted = [&](const std::string& text, double y) {
-    const double size = 12.5 * u, room = strip_left_ - x - 8 * u;
-    regular_.draw(image, text, x, y, size * std::min(1.0, room / std::max(1.0, regular_.width(text, size))), quiet_ink);
-  };
-  const double higher = tilting ? 0 : 5 * u;  // four rows of text in place of three
-  fitted((tilting ? "tilt, about " : r.axis.size() > 1 ? "along " : "ground, along ") + r.axis, top + 25 * u - higher);
-  const double now_shown = std::round(100 * value_at(r, t) / one) / 100 + 0.0;  // no -0.00
-  bold_.draw(image, fmt::format("{:+.2f}{}", now_shown, unit), x, top + 49 * u - higher, 17 * u, text_ink);
-  const std::string peak = fmt::format("{:.3g}{}", r.peak / one, unit);
-  fitted(!tilting ? "peak shown" : (run_.multipliers.empty() ? "peak " : "stood at ") + peak, top + 71 * u - 2 * higher);
-  if (!tilting) fitted(peak, top + 78 * u);  // rows may miss that of the wave
-  const double upper = top + (run_.marks.empty() ? 6 : 18) * u, lower = bottom - 19 * u, thin = 0.65 * u, now = column(t);
-  const auto row = [&](double value) { return upper + (lower - upper) * (range_.high - value) / (range_.high - range_.low); };
-  fill_box(image, strip_left_, row(0) - 0.5, strip_right_, row(0) + 0.5, {150, 156, 163, 0.8});
-  for (std::size_t c = 0; c < strip_.size(); ++c) {
-    const double left = strip_left_ + static_cast<double>(c);
-    const Ink ink = left < now ? Ink{48, 60, 76, 1} : Ink{150, 158, 168, 1};
-    fill_box(image, left, row(strip_[c].high) - thin, left + 1, row(strip_[c].low) + thin, ink);
-  }
-  fill_box(image, now - 0.9 * u, top + 3 * u, now + 0.9 * u, lower + 3 * u, accent);
-  const double at = row(value_at(r, t));
-  fill_box(image, now - 3.5 * u, at - 3.5 * u, now + 3.5 * u, at + 3.5 * u, accent);
-  draw_times(image, top, lower + 2 * u, now);  // names lie over the cursor
-}
-
-// Seconds, or states of a push, below the strip, and event names above it.
-void Overlay::draw_times(Image& image, double top, double bottom, double now) const {
-  const bool states = !run_.multipliers.empty() && run_.state_dt > 0;
-  const double u = unit_, one = states ? run_.state_dt : 1, step = round_length(end_time_ / one * 110 * u / (strip_right_ - strip_left_));
-  const double last_state = states ? one * (static_cast<double>(run_.multipliers.size()) - 1) : end_time_;  // a fall may follow
-  const auto label = [&](const std::string& text, double x, Font::Align align) {
-    const double size = legible(11, u), base = bottom + std::max(14 * u, 4 * u + 0.9 * size);  // clear of the tick
-    regular_.draw(image, text, x, base, size, quiet_ink, align);
-  };
-  if (column(end_time_) - column(last_state) > 60 * u) label("fall", 0.5 * (column(end_time_) + column(last_state)), Font::Align::middle);
-  for (int i = 0; i * step * one <= std::min(last_state, end_time_) * (1 + 1e-9); ++i) {
-    const double x = column(i * step * one);
-    fill_box(image, x - 0.5 * u, bottom, x + 0.5 * u, bottom + 3 * u, quiet_ink);
-    const Font::Align align = x + 14 * u > strip_right_ ? Font::Align::right : Font::Align::middle;
-    label(fmt::format("{}{:g}{}", states && i == 0 ? "state " : "", i * step, states ? "" : " s"), x, align);
-  }
-  double last = strip_left_;  // end of the previous name
-  for (const Mark& mark : run_.marks) {
-    if (mark.t > end_time_) continue;
-    const double x = column(mark.t), size = legible(11.5, u), width = regular_.width(mark.name, size);
-    const Ink ink = x <= now + 0.5 ? text_ink : quiet_ink;
-    fill_box(image, x - 0.6 * u, top + 4 * u, x + 0.6 * u, bottom, ink);
-    // The first name stands before its line and later names behind theirs, if there is room.
-    const bool before = (&mark == &run_.marks.front() || x + width + 5 * u > strip_right_) && x - width - 5 * u > last;
-    const double left = before ? x - 5 * u - width : x + 5 * u;
-    // A name that would reach over the next line is left out: the later event matters more.
-    const Mark* next = &mark == &run_.marks.back() ? nullptr : &mark + 1;
-    if (!before && next && next->t <= end_time_ && left + width > column(next->t)) continue;
-    if (now > left - 3 * u && now < left + width + 3 * u)
-      fill_box(image, left - 2 * u, top + 2 * u, left + width + 2 * u, top + 16 * u, {250, 251, 252, 0.9});
-    regular_.draw(image, mark.name, before ? x - 5 * u : x + 5 * u, top + 13 * u, size, ink,
-                  before ? Font::Align::right : Font::Align::left);
-    last = before ? x : x + 5 * u + width;
-  }
+  bold_.draw(image, first, border * u, base - 10 * u, size, text_ink);
+  if (!rest.empty()) bold_.draw(image, cut(rest, " ..."), border * u, base + 10 * u, size, text_ink);
 }
 
 // The number at a share of the map, with its unit.
@@ -267,7 +169,7 @@ std::string Overlay::map_number(double share) const {
 }
 
 double Overlay::draw_map(Image& image) const {
-  const double u = unit_, right = image.width - margin * u, size = 13 * u, width = 170 * u, left = right - width, y = legend_top_ + 18 * u;
+  const double u = unit_, right = image.width - border * u, size = 13 * u, width = 170 * u, left = right - width, y = legend_top_ + 18 * u;
   const char* const remark = is_stress(look_.coloring) && show_.replaced ? "0 where contact has replaced a joint" : "";
   const double small = legible(11, u), wide = std::max(width, regular_.width(remark, small)), more = *remark != '\0' ? 17 * u : 0;
   fill_box(image, right - wide - 10 * u, y - 18 * u, right + 10 * u, y + 36 * u + more, panel);
@@ -283,6 +185,7 @@ double Overlay::draw_map(Image& image) const {
   const double room = 0.5 * width - regular_.width(end, size) - 6 * u;
   // Where there is no room for the unit, it stands at the end alone; another one there would mislead.
   if (0.5 * regular_.width(half, size) > room) half = unit_of_number(half) == unit ? half.substr(0, half.find(' ')) : "";
+  if (0.5 * regular_.width(half, size) > room) half = "";
   regular_.draw(image, half, 0.5 * (left + right), y + 33 * u, size, quiet_ink, Font::Align::middle);
   regular_.draw(image, end, right, y + 33 * u, size, quiet_ink, Font::Align::right);
   return y + 36 * u + more;
@@ -290,7 +193,7 @@ double Overlay::draw_map(Image& image) const {
 
 double Overlay::draw_legend(Image& image) const {
   if (look_.coloring == Coloring::damage || is_quantity(look_.coloring)) return draw_map(image);
-  const double u = unit_, right = image.width - margin * u, size = 13 * u;
+  const double u = unit_, right = image.width - border * u, size = 13 * u;
   double y = legend_top_ + 18 * u;
   const bool by_state = look_.coloring == Coloring::joint_state;
   struct Row {
@@ -335,7 +238,7 @@ double Overlay::draw_legend(Image& image) const {
 void Overlay::draw_scale(Image& image) const {
   const double u = unit_, wish = 110 * u * pixel_, ten = std::pow(10.0, std::floor(std::log10(wish)));
   const double length = ten * (wish < 2 * ten ? 1 : wish < 5 * ten ? 2 : 5), width = length / pixel_;
-  const double right = image.width - margin * u, y = image.height - look_.bottom - 14 * u;
+  const double right = image.width - border * u, y = image.height - look_.bottom - 14 * u;
   const bool lines = show_.stage.on_ground || (show_.stage.positions.empty() && !show_.stage.bounded);
   const std::string grid = lines ? "grid " + length_text(show_.grid) : "";
   fill_box(image, right - width - 34 * u - regular_.width(grid, 12 * u), y - 26 * u, right + 10 * u, y + 10 * u, panel);
@@ -376,7 +279,7 @@ void Overlay::draw_axes(Image& image, double t) const {
   const Eigen::Vector2d around = Eigen::Vector2d::Constant(length + 13 * u);
   if (tilting) held = {-around, around};
   const double wide = std::max(held.sizes().x(), shaking ? regular_.width("shaking", 11.5 * u) : 0.0);
-  const double pad = 6 * u, left = margin * u, right = left + wide + 2 * pad, bottom = image.height - look_.bottom - 2 * u;
+  const double pad = 6 * u, left = border * u, right = left + wide + 2 * pad, bottom = image.height - look_.bottom - 2 * u;
   const double x = 0.5 * (left + right) - held.center().x(), y = bottom - pad - (shaking ? 14 * u : 0) - held.max().y();
   fill_box(image, left, y + held.min().y() - pad, right, bottom, panel);
   for (const Arrow& a : arrows) {

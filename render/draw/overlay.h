@@ -7,12 +7,16 @@
 
 namespace erbs::render {
 
+inline constexpr Ink quiet_ink{95, 102, 110, 1}, accent{176, 48, 28, 1};
+inline constexpr double border = 22;       // in rows of a picture with 720 rows, as all lengths of the overlay
+double legible(double size, double unit);  // px, of small type: in pictures of 360 rows 9.4 in place of 8.3, which H.264 blurs
+
 // Pixels of the overlay's unit of length: a row of a picture with 720 rows. Smaller pictures have relatively larger text: at 360 rows its
-// smallest letters still have 8 pixels.
-double overlay_unit(int height);
+// smallest letters still have 8 pixels. In an upright picture the width counts.
+double overlay_unit(int width, int height);
 // Pixels of the overlay at top and bottom of the picture; the camera aims at the part between.
-double overlay_top(int height);
-double overlay_bottom(int height, bool with_record);
+double overlay_top(int width, int height);
+double overlay_bottom(int width, int height, bool with_record);
 // Of a legend of four rows at the upper right, with its margin; height from the part that the camera aims at on; in rows of a picture with
 // 720 rows.
 constexpr double legend_width = 214, legend_height = 100, below_title = 60;
@@ -33,6 +37,7 @@ class Overlay {
  private:
   void see(const View& view);
   void draw_title(Image& image, double t) const;
+  void reduce_record();
   void draw_record(Image& image, double t) const;
   void draw_times(Image& image, double top, double bottom, double now) const;
   void draw_legends(Image& image, const std::vector<MarkRow>& marks) const;

@@ -35,15 +35,26 @@ struct Files {
   fs::path frames;
   std::string stem, video;
   bool stills;
+  int decimals = 3;  // of the times of stills in their names
   std::string picture(std::size_t index, double t) const {
-    return (frames / (stills ? fmt::format("{}_t{:.3f}s.png", stem, t) : fmt::format("{}_{:05}.png", stem, index + 1))).string();
+    return (frames / (stills ? fmt::format("{}_t{:.{}f}s.png", stem, t, decimals) : fmt::format("{}_{:05}.png", stem, index + 1))).string();
   }
 };
+
+// Decimals that tell different times apart.
+int decimals_of(std::vector<double> times) {
+  std::ranges::sort(times);
+  int decimals = 3;
+  for (std::size_t i = 1; i < times.size(); ++i)
+    while (decimals < 9 && fmt::format("{:.{}f}", times[i], decimals) == fmt::format("{:.{}f}", times[i - 1], decimals)) ++decimals;
+  return decimals;
+}
 
 // Error if an output exists, unless --force allows it.
 Files files_of(const Run& run, const Movie& movie, const std::string& camera, const Schedule& schedule) {
   const fs::path dir(run.dir);
   Files files{dir / "frames", file_stem(camera), "", !movie.stills.empty()};
+  if (files.stills) files.decimals = decimals_of(schedule.times);
   if (movie.video && movie.stills.empty())
     files.video = (dir / fmt::format("{}_{}.{}", file_stem(run.name), files.stem, movie.webp ? "webp" : "mp4")).string();
   for (const std::string& path : {files.video, files.picture(0, schedule.times.front())})
@@ -91,7 +102,7 @@ Tiles tiles_of(const Look& whole, std::size_t cameras) {
   tiles.look.width = whole.width / tiles.columns;
   tiles.look.height = static_cast<int>(whole.height - tiles.top - whole.bottom) / tiles.rows;
   tiles.look.top = tiles.look.bottom = 0;
-  tiles.look.unit = overlay_unit(whole.height);
+  tiles.look.unit = overlay_unit(whole.width, whole.height);
   if (tiles.look.width < 64 || tiles.look.height < 64)
     throw Error(fmt::format("--split: {} cameras in {}x{} leave each less than 64 pixels; ask for a larger --size, or fewer cameras",
                             cameras, whole.width, whole.height));
@@ -128,7 +139,7 @@ Workers::Draw drawer(const Run& run, const Show& show, const Movie& movie, const
       const Camera camera = tiles.shots[k].at(frame.t);
       Image tile = painter->draw(frame, camera, level, dust_at(tiles.impacts, frame.t));
       const Camera in_the_scene = level ? in_scene(camera, table_position(show.stage, *level)) : camera;
-      draw_marks(tile, marks, look(in_the_scene, show.stage, of.width, of.height, of.top, of.bottom), overlay_unit(l.height));
+      draw_marks(tile, marks, look(in_the_scene, show.stage, of.width, of.height, of.top, of.bottom), overlay_unit(l.width, l.height));
       const View view = look(camera, show.stage, of.width, of.height, of.top, of.bottom);
       if (!tiles.split()) {
         if (l.overlay) overlays[k]->draw(tile, frame.t, view, marks.legend);
@@ -144,7 +155,7 @@ Workers::Draw drawer(const Run& run, const Show& show, const Movie& movie, const
         fill_box(image, left, top - thin, left + tile.width, top + thin, {252, 252, 252, 1});
     }
     if (tiles.split() && l.overlay)
-      frame_of_tiles->draw_around_tiles(image, frame.t, marks.legend, tiles.legend_top(overlay_unit(l.height)));
+      frame_of_tiles->draw_around_tiles(image, frame.t, marks.legend, tiles.legend_top(overlay_unit(l.width, l.height)));
     write_png(files.picture(index, frame.t), image, texts_of(run));
     return image;
   };
@@ -247,6 +258,14 @@ void tell_of_missing_times(const std::pair<double, double>& wish, const std::vec
                      wish.first, wish.second, recorded.front(), recorded.back()));
 }
 
+// A run of some milliseconds has one picture in a film of its own speed.
+void tell_of_few_pictures(const Movie& movie, const Schedule& schedule, const std::vector<double>& recorded) {
+  if (movie.quiet || !movie.stills.empty() || !movie.frames.empty() || schedule.times.size() > 4 || recorded.size() <= 4) return;
+  tell(stderr,
+       fmt::format("note: {} at {:g} a second are all that {:.3g} s hold; --frames every draws the {} recorded ones, in slow motion",
+                   counted(schedule.times.size(), "picture"), movie.fps, recorded.back() - recorded.front(), recorded.size()));
+}
+
 }  // namespace
 
 Show show_of(const Run& run, const MotionReader& reader, const Movie& movie, bool sharp) {
@@ -261,9 +280,11 @@ bool make_movie(const Run& run, const MotionReader& reader, const Movie& wish, c
     tell(stderr, "warning: a video needs ffmpeg, which is not there: its frames are written without it; install the package ffmpeg");
     movie.video = false;
   }
-  movie.look.top = movie.look.overlay ? overlay_top(movie.look.height) : 0;
-  movie.look.bottom = movie.look.overlay ? overlay_bottom(movie.look.height, !run.strip().axis.empty()) : 0;
+  if (movie.video && movie.stills.empty() && !movie.webp) check_video_size(movie.look.width, movie.look.height);
+  movie.look.top = movie.look.overlay ? overlay_top(movie.look.width, movie.look.height) : 0;
+  movie.look.bottom = movie.look.overlay ? overlay_bottom(movie.look.width, movie.look.height, !run.strip().axis.empty()) : 0;
   const Schedule schedule = schedule_of(movie, reader.times());
+  tell_of_few_pictures(movie, schedule, reader.times());
   if (movie.range && movie.stills.empty()) tell_of_missing_times(*movie.range, reader.times());
   const std::size_t together = movie.split ? cameras_of(run, movie) : 1;
   Tiles tiles = tiles_of(movie.look, together);

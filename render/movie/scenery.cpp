@@ -50,8 +50,9 @@ Scenery::Scenery(const Run& run, const MotionReader& reader, const Movie& movie,
   if (movie.look.coloring == Coloring::energy) bodies_ = bodies_of(reader.scene(), run);
   stage_ = stage_of(run, reader, excerpt_, movie);
   if (movie.look.overlay && !movie.split && !movie.svg) {
-    stage_.legend_width = legend_width * overlay_unit(movie.look.height) / movie.look.width;
-    stage_.legend_height = legend_height * overlay_unit(movie.look.height) / (movie.look.height - movie.look.top - movie.look.bottom);
+    const double unit = overlay_unit(movie.look.width, movie.look.height);
+    stage_.legend_width = legend_width * unit / movie.look.width;
+    stage_.legend_height = (legend_height + 20 * movie.marks.most_rows()) * unit / (movie.look.height - movie.look.top - movie.look.bottom);
   }
   for (const Camera& camera : cameras(aspect, times)) {
     Shot shot{camera, [camera](double) { return camera; }};

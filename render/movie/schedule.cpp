@@ -26,7 +26,7 @@ Schedule schedule_of(const Movie& movie, const std::vector<double>& recorded) {
     for (double t : movie.stills) {
       if (t < first - slack || t > last + slack)
         throw Error(fmt::format("--stills {} is not within the run, which has frames from {:.6g} s to {:.6g} s", t, first, last));
-      s.times.push_back(t);
+      if (std::ranges::none_of(s.times, [&](double other) { return std::fabs(t - other) < 1e-9; })) s.times.push_back(t);
     }
     return s;
   }

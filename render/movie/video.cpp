@@ -31,11 +31,14 @@ void to_yuv420(const Image& image, std::vector<std::uint8_t>& out) {
 
 }  // namespace
 
+void check_video_size(int width, int height) {
+  if (width % 2 || height % 2) throw Error(fmt::format("a video of {}x{} cannot be made; width and height must be even", width, height));
+}
+
 Video::Video(std::string path, int width, int height, double fps, int channels) : path_(std::move(path)), unfinished_(path_ + ".part") {
   const bool webp = path_.ends_with(".webp");
   as_yuv_ = !webp && channels == 3;
-  if (!webp && (width % 2 || height % 2))
-    throw Error(fmt::format("a video of {}x{} cannot be made; width and height must be even", width, height));
+  if (!webp) check_video_size(width, height);
   const std::string size = fmt::format("{}x{}", width, height), rate = fmt::format("{:g}", fps);
   std::vector<std::string> words{"ffmpeg",    "-y",       "-nostdin",
                                  "-loglevel", "error",    "-f",

@@ -9,6 +9,8 @@
 
 namespace erbs::render {
 
+void check_video_size(int width, int height);  // Error if an MP4 cannot have it
+
 class Video {
  public:
   Video(std::string path, int width, int height, double fps, int channels = 3);

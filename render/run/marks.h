@@ -29,6 +29,7 @@ struct MarkChoice {
   bool forces = false, thrust = false;
   std::string mechanism;  // "motion": velocities of the run; else the mechanism.csv of a limit analysis; "": none
   bool any() const { return forces || thrust || !mechanism.empty(); }
+  int most_rows() const { return 2 * forces + thrust + (forces || thrust) + !mechanism.empty(); }  // of the legend
 };
 
 // Velocity (m/s) and spin (rad/s) of the blocks [blocks].

@@ -107,19 +107,37 @@ Mat3 levelling(const GravityRecord& gravity, double t) {
   return Eigen::Quaterniond::FromTwoVectors(gravity_at(gravity, t), -Vec3::UnitZ()).toRotationMatrix();
 }
 
+namespace {
+
+// Decimals of a second that tell recorded frames apart.
+int clock_decimals(const Run& run) {
+  return run.frame_dt > 0 ? std::clamp(static_cast<int>(std::ceil(-std::log10(run.frame_dt) - 1e-6)), 2, 6) : 2;
+}
+
+}  // namespace
+
 std::string clock_text(const Run& run, double t) {
-  if (run.multipliers.empty() || !(run.state_dt > 0)) return fmt::format("{:.2f} s", t);
+  if (run.multipliers.empty() || !(run.state_dt > 0)) return fmt::format("{:.{}f} s", t, clock_decimals(run));
   const std::size_t last = run.multipliers.size() - 1;
   const double end = static_cast<double>(last) * run.state_dt;
   if (t > end + 0.5 * run.state_dt) return fmt::format("fall + {:.2f} s", t - end);
   const auto state = static_cast<std::size_t>(std::lround(std::max(0.0, t) / run.state_dt));
-  const double multiplier = run.multipliers[state];
+  const double at = std::clamp(t / run.state_dt, 0.0, static_cast<double>(last));
+  const auto below = std::min(static_cast<std::size_t>(at), last > 0 ? last - 1 : 0);
+  const double multiplier =
+      last > 0 ? std::lerp(run.multipliers[below], run.multipliers[below + 1], at - static_cast<double>(below)) : run.multipliers[0];
   if (run.multiplier_unit == "tan") return fmt::format("state {}: {:.2f}\u00b0", state, std::atan(multiplier) * 180 / pi);
   return fmt::format("state {}: {:.3f}{}", state, multiplier, run.multiplier_unit == "g" ? " g" : "");
 }
 
 std::string widest_clock(const Run& run) {
-  return run.multipliers.empty() ? "00.00 s" : fmt::format("state {}: 0.000 g", run.multipliers.size());
+  if (run.multipliers.empty()) {
+    std::string zeros = clock_text(run, std::max(run.end, 10.0));
+    std::ranges::replace_if(
+        zeros, [](unsigned char c) { return std::isdigit(c) != 0; }, '0');
+    return zeros;
+  }
+  return fmt::format("state {}: 0.000 g", run.multipliers.size());
 }
 
 Run read_run(const std::string& dir) {
@@ -133,6 +151,7 @@ Run read_run(const std::string& dir) {
   run.name = m.scene_name;
   run.identity = identity_of(m);
   run.title = m.title.empty() ? m.scene_name : m.title;
+  run.frame_dt = m.frame_dt, run.end = m.duration;
   while (!run.title.empty() && run.title.back() == '.') run.title.pop_back();  // a heading has no full stop
   run.cameras = m.cameras;
   for (const Camera& c : run.cameras)

@@ -54,6 +54,7 @@ struct Run {
   std::vector<double> multipliers;  // [states]
   std::string multiplier_unit;      // "g", "tan" of a tilt, or ""
   double state_dt = 0;              // s
+  double frame_dt = 0, end = 0;     // s, between recorded frames, and of the whole run
   bool dry = false;                 // no joint has a bond
   double energy_tolerance = 0;      // relative; 0: unknown
   std::string verdict;              // one sentence on a collapse; "" without one

@@ -113,8 +113,8 @@ Stage set_stage(const MotionScene& scene, const std::vector<MotionFrame>& some_f
   set_table(stage, scene, boxes, some_frames);
   if (some_frames.empty()) return stage;
   double radius = 0;  // m, mean of the blocks
-  for (std::size_t b = 0; b < boxes.size(); ++b)
-    radius += stage.hidden[b] ? 0 : 0.5 * boxes[b].sizes().norm() / static_cast<double>(boxes.size());
+  const auto drawn = static_cast<double>(std::ranges::count(stage.hidden, false));
+  for (std::size_t b = 0; b < boxes.size(); ++b) radius += stage.hidden[b] ? 0 : 0.5 * boxes[b].sizes().norm() / drawn;
   // Blocks thrown far away are ignored; a view that includes them would show the building too small. What stood above the ground may have
   // fallen to it.
   const double aside = 0.9 * stage.size();
@@ -172,10 +172,11 @@ void bound_ground(Stage& stage, const MotionScene& scene, const std::vector<Moti
       if (stage.hidden[b] || scene.blocks[b].fixed || !at.allFinite() || above(at)) continue;
       if (at.z() + thin[b] < stage.ground_z) stage.bounded = true;
     }
+  if (stage.bounded) stage.floor = false;
   if (!stage.bounded || !stage.on_ground) return;
   stage.table = ground;
   stage.table.max().z() = stage.ground_z, stage.table.min().z() = stage.ground_z - 0.03 * stage.size();
-  stage.footing = stage.table, stage.floor = false;
+  stage.footing = stage.table;
 }
 
 Camera in_scene(const Camera& camera, const Eigen::Isometry3d& position) {

@@ -29,7 +29,8 @@ std::string color_of(const Vec3& linear) {
 // The text of an SVG file in lengths of a picture of 720 rows.
 class Sheet {
  public:
-  Sheet(double width, double height) : width_(width), height_(height), u_(overlay_unit(static_cast<int>(height))) {}
+  Sheet(double width, double height)
+      : width_(width), height_(height), u_(overlay_unit(static_cast<int>(width), static_cast<int>(height))) {}
   double u() const { return u_; }
   double width() const { return width_; }
   double height() const { return height_; }
@@ -180,8 +181,8 @@ bool make_drawings(const Run& run, const MotionReader& reader, const Movie& wish
   Movie movie = wish;
   if (movie.stills.empty() && !reader.times().empty()) movie.stills = {reader.times().back()};
   movie.look.coloring = Coloring::material;
-  movie.look.top = movie.look.overlay ? overlay_top(movie.look.height) : 0;
-  movie.look.bottom = movie.look.overlay ? foot * overlay_unit(movie.look.height) : 0;
+  movie.look.top = movie.look.overlay ? overlay_top(movie.look.width, movie.look.height) : 0;
+  movie.look.bottom = movie.look.overlay ? foot * overlay_unit(movie.look.width, movie.look.height) : 0;
   const Schedule schedule = schedule_of(movie, reader.times());
   const Look& l = movie.look;
   Scenery scenery(run, reader, movie, l.width / (l.height - l.top - l.bottom), schedule.times);

@@ -71,6 +71,7 @@ void become(const char* program, const std::vector<char*>& words, const Launch& 
   std::signal(SIGPIPE, SIG_DFL);
   std::signal(SIGXFSZ, SIG_DFL);
   if (how.own_group) setpgid(0, 0);
+#ifndef ERBS_SANITIZED  // a sanitizer reserves far more than any run
   if (how.memory > 0) {
     // The limit of data, not of addresses: libraries and stacks that are only reserved do not count.
     rlimit most{};
@@ -78,6 +79,7 @@ void become(const char* program, const std::vector<char*>& words, const Launch& 
     most.rlim_cur = most.rlim_max = std::min(most.rlim_max, static_cast<rlim_t>(how.memory));  // a run of a run gets no more than that one
     setrlimit(RLIMIT_DATA, &most);
   }
+#endif
   if (how.fed) dup2(input, STDIN_FILENO);
   if (how.output == how.errors) {
     redirect(how.output, {STDOUT_FILENO, STDERR_FILENO});

@@ -134,7 +134,7 @@ plot::Figure performance_figure(const Performance& p, const DesignSpectrum& spec
   for (std::size_t i = 0; i < 2; ++i) {
     const double left = 0.5 * double(i);
     figure.panels[i].cell = {left, left + 0.5, 0, 0.9};
-    figure.panels[i].axes = plot::Box{left + 0.085, left + 0.465, 0.29, 0.83};
+    figure.panels[i].axes = plot::AxesBox{left + 0.085, left + 0.465, 0.29, 0.83};
   }
   return figure;
 }

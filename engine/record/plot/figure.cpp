@@ -25,10 +25,10 @@ std::string script_of(const Label& l) {
 std::string script_of(const Panel& p) {
   std::string text = fmt::format("set origin {:.6g},{:.6g}\nset size {:.6g},{:.6g}\n", p.cell.left, p.cell.bottom,
                                  p.cell.right - p.cell.left, p.cell.top - p.cell.bottom);
+  if (p.axes && p.axes->left) text += fmt::format("set lmargin at screen {:.6g}\n", *p.axes->left);
   if (p.axes)
-    text += fmt::format(
-        "set lmargin at screen {:.6g}\nset rmargin at screen {:.6g}\nset bmargin at screen {:.6g}\nset tmargin at screen {:.6g}\n",
-        p.axes->left, p.axes->right, p.axes->bottom, p.axes->top);
+    text += fmt::format("set rmargin at screen {:.6g}\nset bmargin at screen {:.6g}\nset tmargin at screen {:.6g}\n", p.axes->right,
+                        p.axes->bottom, p.axes->top);
   text += (p.key.empty() ? "unset key\n" : "set key " + p.key + "\n") + p.settings + script_of("x", p.x) + script_of("y", p.y);
   for (const std::string& one : p.lines) text += "set arrow " + one + "\n";
   for (const Label& label : p.labels) text += script_of(label);

@@ -25,9 +25,14 @@ struct Box {
   double left = 0, right = 1, bottom = 0, top = 1;  // shares of the sheet
 };
 
+struct AxesBox {
+  std::optional<double> left = 0;  // none: as the numbers of the axis leave room
+  double right = 1, bottom = 0, top = 1;
+};
+
 struct Panel {
-  Box cell = {};                 // with its labels
-  std::optional<Box> axes = {};  // of the axes alone; none: as the cell leaves room
+  Box cell = {};                     // with its labels
+  std::optional<AxesBox> axes = {};  // of the axes alone; none: as the cell leaves room
   Axis x = {}, y = {};
   std::string key = {};       // place and form of the legend; "": none
   std::string settings = {};  // further lines, such as a palette

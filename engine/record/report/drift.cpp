@@ -135,7 +135,7 @@ plot::Figure drift_figure(const std::vector<DriftProfile>& profiles, const std::
   for (const DriftProfile& profile : profiles) top = std::max(top, profile.height.back());
   for (int kind = 0; kind < 2; ++kind) {
     plot::Panel p;
-    p.axes = kind == 0 ? plot::Box{0.08, 0.40, 0.13, 0.87} : plot::Box{0.46, 0.78, 0.13, 0.87};
+    p.axes = kind == 0 ? plot::AxesBox{0.08, 0.40, 0.13, 0.87} : plot::AxesBox{0.46, 0.78, 0.13, 0.87};
     p.x = {kind == 0 ? fmt::format("largest displacement [{}]", unit.name) : "largest drift [%]", "[0:*]",
            tics_to(kind == 0 ? peak * unit.factor : 100 * peak_drift)};
     p.y = {kind == 0 ? "height above the support [m]" : "", fmt::format("[0:{:.6g}]", 1.05 * top)};

@@ -106,7 +106,7 @@ plot::Figure stress_figure(const std::vector<StressSample>& samples, const std::
       {fmt::format("mean stress of each joint, bins of {:g} {}; zero once contact has replaced it", unit.factor * bins.width, unit.name),
        fmt::format("screen 0.10,{:.4f}", 1 - 45 / height), "left font ',12' tc rgb '#555555' noenhanced"}};
   plot::Panel p;
-  p.axes = plot::Box{0.10, 0.96, 0.14, 0.86};
+  p.axes = plot::AxesBox{0.10, 0.96, 0.14, 0.86};
   p.x = {fmt::format("{} [{}]", quantity == "shear_stress" ? "shear stress" : "normal stress, tension positive", unit.name)};
   p.y = {"share of the joints' area [%]", "[0:*]"};
   p.settings = "set style fill solid 0.55 noborder\n";

@@ -81,12 +81,15 @@ std::string range_of(double low, double high, bool from_zero) {
   return fmt::format("[{:.8g}:{:.8g}]", low - half, high + half);
 }
 
-// Letters of the longest number that gnuplot writes beside an axis over this range.
+// Letters of the longest number that gnuplot writes beside an axis over this range; it writes 1.05x10^8 for 1.05e+08.
 std::size_t letters_of_tics(double low, double high) {
   const double span = high > low ? high - low : std::max(1.0, std::abs(low)), step = std::pow(10, std::floor(std::log10(span / 4)));
   std::size_t most = 0;
   for (const double end : {std::floor(low / step) * step, std::ceil(high / step) * step})
-    most = std::max(most, fmt::format("{:.6g}", end).size());
+    for (const double tic : {end, end + step / 2}) {
+      const std::string text = fmt::format("{:.6g}", tic);
+      most = std::max(most, text.size() + (text.find('e') == std::string::npos ? 0 : 2));
+    }
   return most;
 }
 

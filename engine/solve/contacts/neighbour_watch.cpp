@@ -133,7 +133,7 @@ void NeighbourWatch::list(double time, const std::vector<std::uint8_t>& loose) {
   for (std::size_t b = 0; b < block_.size(); ++b) u_[b] = block_[b].u, rotation_[b] = block_[b].rotation;
   rotated_.assign(block_.size(), 0.0);
   margin_ = std::max(least_margin_, 2 * closes(time));
-  std::vector<std::uint8_t> looking(loose.size());
+  std::vector<std::uint8_t> looking(block_.size());  // `loose` has an entry for the lane of no block
   for (std::size_t b = 0; b < looking.size(); ++b) looking[b] = !loose[b] && model_.kind[b] != Kind::fixed;
   pairs_.clear();
   listed_u_ = state_.pose.u, listed_q_ = state_.pose.q;

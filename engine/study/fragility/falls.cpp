@@ -74,7 +74,7 @@ plot::Panel times_panel(plot::Figure& figure, const std::vector<Falls>& lines, c
   panel.x = {"time of collapse [s]", fmt::format("[0:{}]", right)};
   panel.y = {"share of runs that have fallen", "[-0.02:1.02]"};
   panel.key = "at graph 0.5,-0.16 top center horizontal maxcols 3 Left reverse samplen 2 font ',11' noenhanced";
-  panel.axes = plot::Box{0.08, 0.555, 0.27, 0.9};
+  panel.axes = plot::AxesBox{0.08, 0.555, 0.27, 0.9};
   return panel;
 }
 
@@ -83,7 +83,7 @@ plot::Panel compass(plot::Figure& figure, const std::vector<Falls>& lines) {
   plot::Panel panel;
   const double high = 0.74, wide = high * figure.height / figure.width;
   panel.cell = {0.58, 1, 0, 0.92};
-  panel.axes = plot::Box{0.79 - wide / 2, 0.79 + wide / 2, 0.1, 0.1 + high};
+  panel.axes = plot::AxesBox{0.79 - wide / 2, 0.79 + wide / 2, 0.1, 0.1 + high};
   panel.settings = "unset border\nunset xtics\nunset ytics\nunset grid\n";
   const auto radius = [&](std::size_t i) { return 0.3 + 0.7 * double(i + 1) / double(lines.size()); };
   for (std::size_t i = 0; i < lines.size(); ++i) {

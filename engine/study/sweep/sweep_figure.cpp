@@ -173,6 +173,7 @@ void add_lines(plot::Figure& figure, plot::Panel& panel, const View& view) {
     const auto means = means_of(line.points);
     const bool scatter = !together && means.size() < line.points.size();
     std::string title = line.name + (scatter ? (line.name.empty() ? "mean of the runs" : ": mean") : "");
+    if (line.absent > 0) panel.key = "on";  // of one line too
     if (line.absent > 0)
       title += fmt::format("{}{} of {} without an answer", title.empty() ? "" : ": ", line.absent, line.absent + line.points.size());
     if (scatter)
@@ -185,7 +186,14 @@ void add_lines(plot::Figure& figure, plot::Panel& panel, const View& view) {
   if (lines.size() > most_lines) {
     panel.series.push_back({"1/0", "points pt 0", fmt::format("and {} more in {}", lines.size() - most_lines, results_file)});
   }
-  panel.x = {plot::label_of(view.params[along]), "", "", "", "noenhanced"};
+  // What has no answer has its place along x all the same.
+  const auto& x = view.table.columns[column_of(view.table, view.params[along])];
+  double low = HUGE_VAL, high = -HUGE_VAL;
+  for (const std::size_t i : view.rows)
+    if (std::isfinite(x[i])) low = std::min(low, x[i]), high = std::max(high, x[i]);
+  const bool absent = std::ranges::any_of(lines, [](const Line& line) { return line.absent > 0; });
+  panel.x = {plot::label_of(view.params[along]), absent && low < high ? fmt::format("[{:.8g}:{:.8g}]", low, high) : "", "", "",
+             "noenhanced"};
   // Only yes and no, or shares of twins between them.
   const bool binary = std::all_of(lines.begin(), lines.end(), [](const Line& line) {
     return std::all_of(line.points.begin(), line.points.end(), [](const auto& point) { return point.second == 0 || point.second == 1; });
@@ -194,8 +202,9 @@ void add_lines(plot::Figure& figure, plot::Panel& panel, const View& view) {
 }
 
 // The legend below the label of the x axis, in as many columns as the sheet holds; the axes leave it room.
-void place_legend(const plot::Figure& figure, plot::Panel& panel, bool with_scale) {
-  constexpr double character = 8, sample = 80, line = 20, labels = 72, title = 46, left = 96;  // px
+void place_legend(plot::Figure& figure, plot::Panel& panel, bool with_scale) {
+  constexpr double character = 9, sample = 80, line = 20, labels = 72, title = 46, left = 96;  // px
+  constexpr double few = 4;                                                                    // rows that the sheet has room for
   std::size_t entries = 0, longest = 0;
   for (const plot::Series& series : panel.series) entries += !series.title.empty(), longest = std::max(longest, series.title.size());
   if (entries > 1 || !panel.key.empty()) {
@@ -203,10 +212,11 @@ void place_legend(const plot::Figure& figure, plot::Panel& panel, bool with_scal
     const double room = 0.97 * figure.width - left;  // gnuplot makes no more columns than fit below the axes
     const auto columns = std::clamp<std::size_t>(std::size_t(room / width), 1, std::max<std::size_t>(entries, 1));
     const double rows = double((entries + columns - 1) / columns);
+    figure.height += line * std::max(0.0, rows - few);
     panel.key = fmt::format("at screen 0.5,{:.4f} center bottom horizontal maxcols {} samplen 3 noenhanced", 8 / figure.height, columns);
-    panel.axes = {left / figure.width, with_scale ? 0.86 : 0.97, (labels + line * rows) / figure.height, 1 - title / figure.height};
+    panel.axes = {std::nullopt, with_scale ? 0.86 : 0.97, (labels + line * rows) / figure.height, 1 - title / figure.height};
   } else {
-    panel.axes = {left / figure.width, with_scale ? 0.86 : 0.97, labels / figure.height, 1 - title / figure.height};
+    panel.axes = {std::nullopt, with_scale ? 0.86 : 0.97, labels / figure.height, 1 - title / figure.height};
   }
 }
 

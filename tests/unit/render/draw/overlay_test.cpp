@@ -28,7 +28,7 @@ struct Overlaid {
   Image draw(double t) const {
     const Show show = prepare_show(scene, run, {brick_house_frame(scene, 0)});
     Look l;
-    l.top = overlay_top(l.height), l.bottom = overlay_bottom(l.height, !run.strip().axis.empty());
+    l.top = overlay_top(l.width, l.height), l.bottom = overlay_bottom(l.width, l.height, !run.strip().axis.empty());
     Camera camera;
     camera.eye = Vec3(3, -5, 2), camera.target = Vec3(0, 0, 0.3);
     Image image(l.width, l.height);
@@ -61,7 +61,7 @@ TEST_CASE("the panel of the axes is as large as they are", "[render][overlay]") 
     s.run.record.t = {0, 1}, s.run.record.a = {0, 1};
   }
   Image image = s.draw(0);
-  const double bottom = overlay_bottom(image.height, !s.run.strip().axis.empty());
+  const double bottom = overlay_bottom(image.width, image.height, !s.run.strip().axis.empty());
   // Over black the panel is light grey, and arrows and letters are darker or red.
   Image corner(140, 130);
   for (int y = 0; y < corner.height; ++y)
