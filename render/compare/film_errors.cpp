@@ -143,12 +143,13 @@ void write_film_errors(const FilmErrors& e, const FilmComparison& wish, bool qui
     tell(stderr, fmt::format("warning: by first motions the run is {} than the film, by correlation ({:.2f}) {}: what moves first lies "
                              "before the first picture of one of them, or is too faint; use --align correlation",
                              lag_text(e.lag), e.correlation, lag_text(e.correlated_lag)));
-  if (wish.align == "correlation" && e.correlation < doubtful) {
-    const std::string way = std::isfinite(e.better_slow) ? fmt::format("with --slow {:g} they correlate by {:.2f}; is the film that slow?",
-                                                                       e.better_slow, e.better_correlation)
-                                                         : "try --align none or another camera";
-    tell(stderr, fmt::format("warning: the motions correlate by {:.2f} only, so that their lag is doubtful; {}", e.correlation, way));
-  }
+  if (std::isfinite(e.better_slow))
+    tell(stderr, fmt::format("warning: the motions correlate by {:.3f}, and with --slow {:g} by {:.3f}; has the film that pace?",
+                             e.correlation, e.better_slow, e.better_correlation));
+  else if (wish.align == "correlation" && e.correlation < doubtful && !e.at_edge)
+    tell(stderr, fmt::format("warning: the motions correlate by {:.2f} only, so that their lag is doubtful; try --align none or another "
+                             "camera",
+                             e.correlation));
   if (quiet) return;
   tell(stdout, fmt::format("pictures    {} compared in {:.1f} s, {:.0f} a second; {} outside the run; measured at 1/{} of their size",
                            e.frames.size(), e.wall, double(e.frames.size()) / e.wall, e.outside, e.reduction));

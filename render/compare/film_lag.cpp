@@ -35,9 +35,10 @@ double first_change(const Samples& signal, double rest) {
   return first_motion(moved);
 }
 
-// Films of tests are often slow motion, and do not say so. A faster pace leaves too little that is level to be told from another.
+// Films of tests are often slow motion, and do not say so. A faster pace leaves too little that is level to be told from another. The same
+// fall at another pace is much like itself: a pace counts that leaves half of what is unlike.
 void try_paces(FilmErrors& errors, double slow, const Samples& run, const Samples& film, double width, double reach) {
-  double best = doubtful;
+  double best = std::isfinite(errors.correlation) ? std::max(doubtful, 0.5 * (1 + errors.correlation)) : doubtful;
   for (const double pace : {0.5, 1.5, 2.0, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0, 12.0, 16.0, 20.0}) {
     Samples faster = film;
     for (double& t : faster.t) t /= pace;
@@ -86,7 +87,7 @@ void align_film(FilmErrors& errors, const FilmComparison& wish, double slow, con
   const Lag found = lag_of(level, levelled_over(film, width), wish.reach);
   errors.correlation = found.correlation;
   const bool by_correlation = wish.align == "correlation";
-  if (by_correlation && !(found.correlation >= doubtful)) try_paces(errors, slow, level, film, width, wish.reach);
+  if (by_correlation && !found.at_edge) try_paces(errors, slow, level, film, width, wish.reach);
   if (by_correlation) errors.lag = found.lag, errors.at_edge = found.at_edge;
   if (wish.align == "first-motion") {
     errors.lag =

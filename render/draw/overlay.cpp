@@ -170,7 +170,7 @@ std::string Overlay::map_number(double share) const {
 
 double Overlay::draw_map(Image& image) const {
   const double u = unit_, right = image.width - border * u, size = 13 * u, width = 170 * u, left = right - width, y = legend_top_ + 18 * u;
-  const char* const remark = is_stress(look_.coloring) && show_.replaced ? "0 where contact has replaced a joint" : "";
+  const char* const remark = is_stress(look_.coloring) && show_.replaced ? "0 at released joints" : "";
   const double small = legible(11, u), wide = std::max(width, regular_.width(remark, small)), more = *remark != '\0' ? 17 * u : 0;
   fill_box(image, right - wide - 10 * u, y - 18 * u, right + 10 * u, y + 36 * u + more, panel);
   regular_.draw(image, remark, right, y + 34 * u + more, small, quiet_ink, Font::Align::right);

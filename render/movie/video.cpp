@@ -32,7 +32,10 @@ void to_yuv420(const Image& image, std::vector<std::uint8_t>& out) {
 }  // namespace
 
 void check_video_size(int width, int height) {
-  if (width % 2 || height % 2) throw Error(fmt::format("a video of {}x{} cannot be made; width and height must be even", width, height));
+  if (width % 2 || height % 2)
+    throw Error(
+        fmt::format("a video of {}x{} cannot be made; width and height must be even; ask for another --size, for --no-video or for --webp",
+                    width, height));
 }
 
 Video::Video(std::string path, int width, int height, double fps, int channels) : path_(std::move(path)), unfinished_(path_ + ".part") {

@@ -74,20 +74,29 @@ void Workers::serve(const Worker& w, int orders, int answers, const std::functio
   }
 }
 
+// Sizes are in bytes; an empty array has no address that could be copied from.
 void Workers::put(unsigned char* place, const MotionFrame& f) const {
-  std::memcpy(place, f.poses.data(), poses_);
-  std::memcpy(place + poses_, f.opening.data(), openings_);
-  if (derived_ > 0) std::memcpy(place + poses_ + openings_, f.derived.data(), derived_);
-  std::memcpy(place + poses_ + openings_ + derived_, f.damage.data(), damages_);
+  const auto append = [&](const void* from, std::size_t size) {
+    if (size > 0) std::memcpy(place, from, size);
+    place += size;
+  };
+  append(f.poses.data(), poses_);
+  append(f.opening.data(), openings_);
+  append(f.derived.data(), derived_);
+  append(f.damage.data(), damages_);
 }
 
 MotionFrame Workers::get(const unsigned char* place, double t) const {
   MotionFrame f{t, std::vector<float>(poses_ / sizeof(float)), std::vector<std::uint8_t>(damages_),
                 std::vector<float>(openings_ / sizeof(float)), std::vector<float>(derived_ / sizeof(float))};
-  std::memcpy(f.poses.data(), place, poses_);
-  std::memcpy(f.opening.data(), place + poses_, openings_);
-  if (derived_ > 0) std::memcpy(f.derived.data(), place + poses_ + openings_, derived_);
-  std::memcpy(f.damage.data(), place + poses_ + openings_ + derived_, damages_);
+  const auto take = [&](void* to, std::size_t size) {
+    if (size > 0) std::memcpy(to, place, size);
+    place += size;
+  };
+  take(f.poses.data(), poses_);
+  take(f.opening.data(), openings_);
+  take(f.derived.data(), derived_);
+  take(f.damage.data(), damages_);
   return f;
 }
 

@@ -295,7 +295,7 @@ void add_force_legend(const MarkChoice& choice, const MarkScale& scale, Marks& m
     marks.legend.push_back({force_text(0.2 * scale.force), 0.2 * widest, force_color, false});
   }
   if (choice.thrust) marks.legend.push_back({"line of thrust, " + force_text(scale.force), widest_thrust, thrust_color, false});
-  if (scale.replaced) marks.legend.push_back({"none where contact has replaced a joint", 0, force_color, false});
+  if (scale.replaced) marks.legend.push_back({"none at released joints", 0, force_color, false});
 }
 
 }  // namespace

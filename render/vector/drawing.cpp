@@ -3,6 +3,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <numeric>
 
 #include "engine/base/error.h"
 #include "engine/base/text.h"
@@ -134,19 +135,26 @@ void put_legend(Sheet& sheet, const DrawnInstant& d, const Projection& projectio
     }
     x = std::max(at, x + room("opening of the joint at this point", 12.5)) + 10 * u;
   }
-  for (std::size_t i = 0; i < d.marks.legend.size(); i += 2) {
-    double widest = 0;
-    for (std::size_t k = i; k < std::min(i + 2, d.marks.legend.size()); ++k) {
-      const MarkRow& row = d.marks.legend[k];
-      widest = std::max(widest, entry(k == i ? y : low, color_of(row.color), row.width, row.name, row.head));
-    }
-    x += widest;
-  }
   const double ppm = projection.pixels_per_metre(), wish = 110 * u / ppm, ten = std::pow(10.0, std::floor(std::log10(wish)));
   const double length = ten * (wish < 2 * ten   ? 1
                                : wish < 5 * ten ? 2
                                                 : 5),
                right = sheet.width() - margin * u, left = right - length * ppm;
+  // The lines over the model stand beside those, two below each other; where they would meet the scale, at the upper right instead.
+  const std::vector<MarkRow>& rows = d.marks.legend;
+  std::vector<double> wide;  // px, of each column
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    if (const double one = 47 * u + room(rows[i].name, 12.5); i % 2 == 0) wide.push_back(one);
+    else wide.back() = std::max(wide.back(), one);
+  const bool below = std::accumulate(wide.begin(), wide.end(), x) < left - 20 * u;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    if (!below) x = right - std::ranges::max(wide);
+    entry(!below       ? d.look.top + (20 + 20 * static_cast<double>(i)) * u
+          : i % 2 == 0 ? y
+                       : low,
+          color_of(rows[i].color), rows[i].width, rows[i].name, rows[i].head);
+    if (below && i % 2 == 1) x += wide[i / 2];
+  }
   sheet.line(left, low - 6 * u, right, low - 6 * u, text_color, 1.6);
   for (const double end : {left, right}) sheet.line(end, low - 11 * u, end, low - u, text_color, 1.6);
   sheet.text(0.5 * (left + right), y + 2 * u, 12.5, text_color, length_text(length), "middle");

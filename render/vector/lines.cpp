@@ -208,8 +208,10 @@ class Lines {
                 d_.show.ghost[b], block.parts.size() > 1);
   }
 
+  // What stands on the table is pressed into it, and its foot must not be hidden: the top lies lower than it is.
   void add_table() {
-    const Eigen::AlignedBox3d& table = d_.show.stage.table;
+    Eigen::AlignedBox3d table = d_.show.stage.table;
+    table.max().z() = std::max(table.min().z(), table.max().z() - 0.02 * thinnest());
     MotionShape box;
     for (int i = 0; i < 8; ++i) {
       const Vec3 p = table.corner(static_cast<Eigen::AlignedBox3d::CornerType>(i));

@@ -69,6 +69,8 @@ void read_sweep(const fs::path& dir, const std::string& page, ReportedStudy& stu
     if (const Json* axes = find_key(json, "study.axes"); axes && axes->is_array())
       for (const Json& axis : *axes)
         for (const Json& name : axis.value("params", Json::array())) params.push_back(name.get<std::string>());
+    if (const Json* bisected = find_key(json, "study.bisect.param"); bisected && bisected->is_string())
+      collected.push_back(bisected->get<std::string>());  // the answer of each point
     if (const Json* keys = find_key(json, "study.collect"); keys && keys->is_array())
       for (const Json& key : *keys) {
         const std::string name = key.get<std::string>();

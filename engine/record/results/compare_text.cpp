@@ -54,7 +54,8 @@ std::string words_of(Alignment how) {
 
 std::string table_of(const RunComparison& c) {
   std::string text = fmt::format("time        aligned by {}", words_of(c.shift.how));
-  if (c.shift.how != Alignment::none) text += fmt::format(" of {}: the run is {:+.4f} s later", c.shift.column, c.shift.lag);
+  if (c.shift.how != Alignment::none)
+    text += fmt::format(" of {}: the run is {:.4f} s {}", c.shift.column, std::fabs(c.shift.lag), c.shift.lag < 0 ? "earlier" : "later");
   text += "\n";
   if (c.scenes) text = scenes_text(*c.scenes) + text;
   if (c.shift.at_edge) text += "warning: the best lag is the largest one searched; the true one may lie beyond, see --reach\n";

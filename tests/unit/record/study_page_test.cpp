@@ -51,6 +51,19 @@ TEST_CASE("the page of a sweep shows its points over its params", "[record][repo
   CHECK(html.find("<a href=\"results.csv\">") != std::string::npos);
 }
 
+TEST_CASE("the page of a bisection shows what was found over the params", "[record][report][study_page]") {
+  const test::Folder dir;
+  write(dir.path / "results.csv",
+        "index,height,pga_m_s2,pga_lo_m_s2,pga_hi_m_s2,runs,status,reason,study\n0,2,3.5,3.4,3.6,9,completed,,k\n"
+        "1,3,2.5,2.4,2.6,9,completed,,k\n");
+  write(dir.path / "study.json",
+        R"({"scene": "wall.lua", "study": {"axes": [{"params": ["height"]}], "collect": [], "bisect": {"param": "pga"}}})");
+  const ReportedStudy study = read_reported_study(dir.path.string(), study_page_path(dir.path.string()));
+  CHECK(study.tables[0].x == 1);
+  CHECK(study.tables[0].y == 2);
+  CHECK(study.answers[2].second == "2.5 to 3.5");
+}
+
 TEST_CASE("the title of a sweep is not its kind once more", "[record][report][study_page]") {
   const test::Folder dir;
   for (const auto& [folder, title] : {std::pair{"sweep", "wall"}, {"two_walls", "two_walls"}}) {

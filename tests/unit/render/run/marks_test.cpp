@@ -67,7 +67,7 @@ TEST_CASE("forces of a pier are the weights above, and its thrust leans with gra
   CHECK(marks.legend[2].name.find("line of thrust") == 0);
   const Marks later = marks_of(choice, scene, stage, frame, frame, {}, {count * weight, 1, true});
   REQUIRE(later.legend.size() == 4);
-  CHECK(later.legend[3].name == "none where contact has replaced a joint");
+  CHECK(later.legend[3].name == "none at released joints");
 }
 
 TEST_CASE("the thrust of a wall branches to the joints that bear it, and carries all of its weight", "[render][marks]") {
