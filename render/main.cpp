@@ -26,7 +26,8 @@ using erbs::Error;
 namespace render = erbs::render;
 
 struct Arguments {
-  std::string dir, size = "1280x720", time, stills, eye, target, color = "material", section, tilt = "table", background = "sky", points;
+  std::string dir, size = "1280x720", time, stills, eye, target, color = "material", section, tilt = "table", shaking = "camera",
+                   background = "sky", points;
   bool known_fov = false;
   std::vector<std::string> cameras;
   bool figures_only = false, no_figures = false;
@@ -134,13 +135,19 @@ void find_camera(Arguments& a) {
                   c.eye.y(), c.eye.z(), c.target.x(), c.target.y(), c.target.z(), c.fov * 180 / erbs::pi, found.residual));
 }
 
+erbs::MotionReader motion_of(const Arguments& a) {
+  erbs::MotionReader reader(a.dir);
+  if (a.shaking == "table") reader.stand_beside_the_ground();
+  return reader;
+}
+
 // Against a film: 0, or 130 if interrupted.
 int compare(const render::Run& folder, Arguments& a) {
   if (a.comparison.place.empty()) a.comparison.place = a.dir + "/compare";
   if (!a.movie.force && std::filesystem::exists(a.comparison.place + "/frames.json"))
     throw Error("it exists already; --force writes it anew", {a.comparison.place + "/frames.json"});
   if (!erbs::can_start("ffmpeg")) throw Error("films of a comparison need ffmpeg, which is not installed; install the package ffmpeg");
-  const erbs::MotionReader reader(a.dir);
+  const erbs::MotionReader reader = motion_of(a);
   if (!a.points.empty()) find_camera(a);
   render::prepare_contexts();
   return render::compare_film(folder, reader, a.movie, a.comparison, erbs::catch_interrupts()) ? 0 : 130;
@@ -186,7 +193,7 @@ int run(Arguments& a) {
     std::fflush(stdout);  // before copies of this process are made
   };
   if (a.figures_only) return figures(), 0;
-  const erbs::MotionReader reader(a.dir);
+  const erbs::MotionReader reader = motion_of(a);
   if (movie.svg) return render::make_drawings(folder, reader, movie, erbs::catch_interrupts(), figures) ? 0 : 130;
   render::prepare_contexts();
   if (!render::make_movie(folder, reader, movie, erbs::catch_interrupts(), figures)) return 130;
@@ -266,6 +273,9 @@ int main(int argc, char** argv) {
   app.add_option("--magnify", a.movie.look.magnify, "factor on the displacements drawn")->check(within(1e-3, 1e6))->capture_default_str();
   app.add_option("--tilt", a.tilt, "of a tilting test: the table turns, or the camera stays level with it")
       ->check(CLI::IsMember({"table", "camera"}))
+      ->capture_default_str();
+  app.add_option("--shaking", a.shaking, "of shaken ground: the camera moves with it, or the table shakes before a camera at rest")
+      ->check(CLI::IsMember({"camera", "table"}))
       ->capture_default_str();
   app.add_option("--background", a.background,
                  "sky, white for print, or transparent: pictures or a WebP of blocks "

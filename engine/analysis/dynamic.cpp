@@ -252,7 +252,7 @@ Metrics Run::metrics() const {
   m.collapse.under_gravity = collapse_.under_gravity;
   if (collapse_.under_gravity) m.collapse.under = weight_at_start(run_.model);
   if (collapse_.collapsed && !collapse_.under_gravity) m.collapse.time_s = collapse_.time;
-  m.collapse.direction = collapse_direction(collapse_, run_.model, s.pose);
+  if (collapse_.fallen_fraction > 0) m.collapse.direction = collapse_direction(collapse_, run_.model, s.pose);
   const Course course = course_of(collapse_, run_.model, group_, m.collapse.direction);
   m.collapse.course = course.text;
   for (const GroupFall& one : course.groups)

@@ -292,10 +292,9 @@ std::string what_limits(const Goal& q, std::size_t index, const std::vector<Meas
 std::string plain_sentence(const Goal& q, std::size_t index, const std::vector<Measured>& all) {
   const std::vector<std::size_t> front = pareto(q, index, all, true);
   if (front.empty()) {
-    const auto told = std::find_if(all.begin(), all.end(), [](const Measured& m) { return !m.reason.empty(); });
-    return fmt::format(
-        "{}: no run gave a value; {}", q.name,
-        told == all.end() ? "the metric returned none: look at its function" : "the first that failed says: " + told->reason);
+    const bool ended = std::ranges::any_of(all, [](const Measured& m) { return m.reason.empty(); });
+    return fmt::format("{}: no run gave a value; {}", q.name,
+                       ended ? "the metric returned none: look at its function" : "the first that failed says: " + all.front().reason);
   }
   std::string text;
   double told = std::numeric_limits<double>::infinity();

@@ -23,7 +23,7 @@ inline constexpr std::string_view run_help = R"(the table run:
   run.history(column)      its values, one per row
   run.peak(column)         largest magnitude;  run.peak_time(column) its time (s)
   run.max(column), run.min(column), run.mean(column), run.rms(column), run.first(column), run.last(column)
-  run.at(column, t)        value at time t, linear between rows
+  run.at(column, t)        value at time t, linear between rows; nil beyond the run
   run.frequency(column, from, to)  dominant frequency (Hz), in a band if one is given: Hann window, spectrum, parabola through the peak
   run.period(column)       mean time between rising crossings of zero (s)
   run.crossings(column, level, rising)   times at which the column crosses the level

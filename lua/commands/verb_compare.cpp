@@ -162,10 +162,22 @@ void check_kinds(const std::string& run, const std::string& reference) {
                           shown(push ? run : reference, 400), shown(push ? reference : run, 400)));
 }
 
+// Rows of a measurement that are left out, since a cell of them is no number.
+void tell_of_gaps(const CsvTable& table, const std::string& path) {
+  std::size_t gaps = 0;
+  for (std::size_t row = 0; row < table.rows(); ++row)
+    gaps += std::ranges::any_of(table.columns, [&](const auto& column) { return !std::isfinite(column[row]); });
+  if (gaps > 0)
+    tell(stderr,
+         fmt::format("warning: {}: {} of {} rows hold a cell that is no number; of that column the line between their neighbours counts",
+                     shown(path, 200), gaps, table.rows()));
+}
+
 std::vector<ColumnPair> pairs_of(const CompareCommand& command, bool of_run) {
   const std::string &run = command.words[0], &reference = command.words[1];
   const CsvTable own = read_histories(run), other = of_run ? read_histories(reference) : read_measured_csv(reference);
   const std::string path = of_run ? run_file(reference, "histories.csv") : reference;
+  if (!of_run) tell_of_gaps(other, reference);
   if (!of_run || !command.columns.empty() || has_response_of(own, other)) return pair_columns(own, other, command.columns, path);
   if (!command.output.quiet) say("the histories have no response in common: energies are compared\n");
   return pair_columns(with_energies(run), with_energies(reference), {}, run_file(reference, "energy.csv"));
@@ -236,6 +248,7 @@ std::vector<std::pair<std::string, std::string>> film_options() {
       {"--target", "x,y,z: the point that it looks at (m)"},
       {"--fov", "its vertical angle of view (deg)"},
       {"--points", "x,y,z:u,v;..: four or more points (m) and their places in the picture (px), which give the camera"},
+      {"--shaking", "camera (default): it moves with the shaken ground; table: the camera is at rest beside it"},
       {"--fps", "pictures a second of a folder of frames (default 25)"},
       {"--slow", "seconds of film for one second of the test (default 1)"},
       {"--film-width", "of the pictures drawn and of the films at most, px (default 640, the size that is measured)"},

@@ -182,7 +182,8 @@ std::string note_of(const PlotCommand& command, CurveKind kind) {
   return note + fmt::format("{}{:g} s to {:g} s", note.empty() ? "" : ", ", span.from, span.to);
 }
 
-// The frames of a run within the span; without a span until its collapse, or the last state of a push, since the drift of debris means nothing.
+// The frames of a run within the span; without a span until its collapse, or the last state of a push, since the drift of debris means
+// nothing.
 DriftProfile profile_of(const std::string& folder, const PlotCommand& command) {
   const MotionReader reader(folder);
   TimeSpan span;

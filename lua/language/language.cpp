@@ -31,8 +31,9 @@ int unknown_global(lua_State* lua, Context&) {
   const std::string name = lua_type(lua, 2) == LUA_TSTRING ? shown(lua_tostring(lua, 2), 60) : described(lua, 2);
   for (const Function& function : api())
     if (function.of_study && function.name == name)
-      throw Error(fmt::format("{} belongs in a study, a file of its own for erbs sweep, and not for the other commands; see erbs help study", name),
-                  current_place(lua));
+      throw Error(
+          fmt::format("{} belongs in a study, a file of its own for erbs sweep, and not for the other commands; see erbs help study", name),
+          current_place(lua));
   const std::string near = nearest(name, known_names(lua));
   throw Error(
       fmt::format("unknown name \"{}\"{}", name,

@@ -133,7 +133,7 @@ int frequency(lua_State* lua, Context& context) {
   return number(lua, dominant_frequency(times_of(lua, context), column, from, to));
 }
 
-// run.at(column, t): value at time t, linear between rows.
+// run.at(column, t): value at time t, linear between rows; nil where the run has not come to it.
 int at(lua_State* lua, Context& context) {
   const auto& column = column_of(lua, context);
   const auto& time = times_of(lua, context);
@@ -141,6 +141,8 @@ int at(lua_State* lua, Context& context) {
     throw Error(fmt::format("run.at: the time must be a number, not {}", described(lua, 2)), current_place(lua));
   const double t = lua_tonumber(lua, 2);
   const auto after = std::upper_bound(time.begin(), time.end(), t);
+  const double row = time.size() > 1 ? (time.back() - time.front()) / static_cast<double>(time.size() - 1) : 0;
+  if (!(t >= time.front() - 1.5 * row && t <= time.back() + 1.5 * row)) return lua_pushnil(lua), 1;
   if (after == time.begin()) return number(lua, column.front());
   if (after == time.end()) return number(lua, column.back());
   const auto i = static_cast<size_t>(after - time.begin());

@@ -122,7 +122,8 @@ std::string clock_text(const Run& run, double t) {
   const double end = static_cast<double>(last) * run.state_dt;
   if (t > end + 0.5 * run.state_dt) return fmt::format("fall + {:.2f} s", t - end);
   const auto state = static_cast<std::size_t>(std::lround(std::max(0.0, t) / run.state_dt));
-  const double at = std::clamp(t / run.state_dt, 0.0, static_cast<double>(last));
+  double at = std::clamp(t / run.state_dt, 0.0, static_cast<double>(last));
+  if (std::fabs(at - std::round(at)) < 0.05) at = std::round(at);  // a picture of the state itself
   const auto below = std::min(static_cast<std::size_t>(at), last > 0 ? last - 1 : 0);
   const double multiplier =
       last > 0 ? std::lerp(run.multipliers[below], run.multipliers[below + 1], at - static_cast<double>(below)) : run.multipliers[0];

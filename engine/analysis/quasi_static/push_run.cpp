@@ -332,7 +332,7 @@ Metrics PushRun::metrics() {
   if (so_far_.gravity_alone) m.collapse.under = weight_at_start(run_.model);
   m.collapse.fallen_fraction = collapse_.fallen_fraction;
   m.collapse.moving_fraction = moving_fraction(collapse_, run_.model, s);
-  m.collapse.direction = collapse_direction(collapse_, run_.model, s.pose);
+  if (collapse_.fallen_fraction > 0) m.collapse.direction = collapse_direction(collapse_, run_.model, s.pose);
   m.collapse.mechanism = mechanism_metrics(collapse_.mechanism, run_.model);
   m.equilibrium = equilibrium_metrics(run_);
   m.diagnostics = push_diagnostics(residual_, run_.model, s);

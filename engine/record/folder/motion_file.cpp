@@ -47,9 +47,9 @@ struct MotionFrames {
   std::optional<h5::Rows<float>> poses, opening;  // absent without blocks or joints
   std::optional<h5::Rows<float>> normal_stress, shear_stress, force, force_at;
   std::optional<h5::Rows<std::uint8_t>> damage;
-  std::optional<h5::Rows<double>> time;
+  std::optional<h5::Rows<double>> ground, time;
 
-  void create(const h5::File& file, std::size_t nblock, std::size_t njoint, bool stress) {
+  void create(const h5::File& file, std::size_t nblock, std::size_t njoint, bool stress, bool moving_ground) {
     using Row = std::vector<std::size_t>;
     if (nblock > 0) poses.emplace(file, "/poses", Row{nblock, 7}, 1);
     if (njoint > 0) damage.emplace(file, "/joint_damage", Row{njoint}, 1);
@@ -60,6 +60,7 @@ struct MotionFrames {
       force.emplace(file, "/joint_force", Row{njoint, 3}, 1);
       force_at.emplace(file, "/joint_force_at", Row{njoint, 3}, 1);
     }
+    if (moving_ground) ground.emplace(file, "/ground_displacement", Row{3}, 512);
     time.emplace(file, "/time", Row{}, 512);
   }
   void open(const h5::File& file) {
@@ -74,6 +75,7 @@ struct MotionFrames {
       force.emplace(file, "/joint_force");
       force_at.emplace(file, "/joint_force_at");
     }
+    if (file.has("/ground_displacement")) ground.emplace(file, "/ground_displacement");
     time.emplace(file, "/time");
   }
   std::size_t nblock() const { return poses ? poses->row().front() : 0; }
@@ -85,6 +87,7 @@ struct MotionFrames {
     if (opening) n = std::min(n, opening->size());
     if (normal_stress) n = std::min({n, normal_stress->size(), shear_stress->size()});
     if (force) n = std::min({n, force->size(), force_at->size()});
+    if (ground) n = std::min(n, ground->size());
     return n;
   }
   void resize(std::size_t frames) {
@@ -93,6 +96,7 @@ struct MotionFrames {
     if (opening) opening->resize(frames);
     if (normal_stress) normal_stress->resize(frames), shear_stress->resize(frames);
     if (force) force->resize(frames), force_at->resize(frames);
+    if (ground) ground->resize(frames);
     time->resize(frames);
   }
 };
@@ -149,11 +153,11 @@ struct MotionWriter::File {
   std::optional<MotionSidecar> sidecar;
 };
 
-MotionWriter::MotionWriter(const std::string& dir, const MotionScene& scene, bool stress)
+MotionWriter::MotionWriter(const std::string& dir, const MotionScene& scene, bool stress, bool ground)
     : file_(new File{h5::File(in(dir, "motion.h5"), h5::File::Mode::create), {}, {}}) {
   put_identity(file_->file, dir);
   put_scene(file_->file, scene);
-  file_->frames.create(file_->file, scene.blocks.size(), scene.joints.size(), stress);
+  file_->frames.create(file_->file, scene.blocks.size(), scene.joints.size(), stress, ground);
   file_->file.single_writer();
   file_->sidecar.emplace(in(dir, "motion.xdmf"), scene.blocks.size());
 }
@@ -199,6 +203,10 @@ void MotionWriter::write(const MotionFrame& frame) {
     frames.force->append(frame.force.data());
     frames.force_at->append(frame.force_at.data());
   }
+  if (frames.ground) {
+    ERBS_ASSERT(frame.ground.size() == 3);
+    frames.ground->append(frame.ground.data());
+  }
   frames.time->append(&frame.t);
   file_->file.flush();
   file_->sidecar->frame(frames.size() - 1, frame.t);
@@ -212,6 +220,7 @@ struct MotionReader::File {
   MotionScene scene;
   MotionFrames frames;
   std::vector<double> times;
+  bool beside_the_ground = false;
 };
 
 namespace {
@@ -233,7 +242,8 @@ void check_counts(const std::string& dir, const MotionScene& scene) {
 
 }  // namespace
 
-MotionReader::MotionReader(const std::string& dir) : file_(new File{h5::File(in(dir, "motion.h5"), h5::File::Mode::read), {}, {}, {}}) {
+MotionReader::MotionReader(const std::string& dir)
+    : file_(new File{h5::File(in(dir, "motion.h5"), h5::File::Mode::read), {}, {}, {}, false}) {
   file_->scene = get_scene(file_->file);
   file_->frames.open(file_->file);
   if (file_->frames.nblock() != file_->scene.blocks.size()) file_->file.unreadable("/poses");
@@ -251,6 +261,12 @@ MotionReader& MotionReader::operator=(MotionReader&&) noexcept = default;
 const MotionScene& MotionReader::scene() const { return file_->scene; }
 const std::vector<double>& MotionReader::times() const { return file_->times; }
 bool MotionReader::has_stress() const { return file_->frames.normal_stress.has_value(); }
+void MotionReader::stand_beside_the_ground() {
+  if (!file_->frames.ground)
+    throw Error("it holds no displacement of the ground: the scene has no ground_motion, or the run is of an earlier version; run it again",
+                {file_->file.path(), 0});
+  file_->beside_the_ground = true;
+}
 bool MotionReader::has_forces() const { return file_->frames.force.has_value(); }
 
 MotionFrame MotionReader::read(int frame) const {
@@ -272,6 +288,12 @@ MotionFrame MotionReader::read(int frame) const {
     frames.force->read(at, f.force.data());
     frames.force_at->read(at, f.force_at.data());
   }
+  if (frames.ground) f.ground.resize(3), frames.ground->read(at, f.ground.data());
+  if (file_->beside_the_ground)
+    for (std::size_t i = 0; i < 3; ++i) {
+      for (std::size_t k = i; k < f.poses.size(); k += 7) f.poses[k] += float(f.ground[i]);
+      for (std::size_t k = i; k < f.force_at.size(); k += 3) f.force_at[k] += float(f.ground[i]);
+    }
   return f;
 }
 

@@ -4,6 +4,7 @@
 //   /shape_* (drawn parts, shared between equal blocks)  /joint_* (the blocks of each joint, and its polygon)
 //   /time [frames]  /poses [frames,blocks,7]  /joint_damage [frames,joints]  /joint_opening [frames,joints]
 //   /joint_normal_stress [frames,joints]  /joint_shear_stress [frames,joints]
+//   /ground_displacement [frames,3], m, if the ground moves
 //   /joint_force [frames,joints,3]  /joint_force_at [frames,joints,3], these four if the scene asks for stresses
 //   attributes of /: scene, scene_hash, program (identity.h), of the manifest.json in whose folder the file was begun
 //
@@ -62,6 +63,7 @@ struct MotionFrame {
   std::vector<float> normal_stress{}, shear_stress{};  // Pa, means, tension positive; empty without [joints]
   // N, of b on a, and m, where its normal part acts in the plane of the joint; world axes, empty without [joints*3]
   std::vector<float> force{}, force_at{};
+  std::vector<double> ground{};  // m, displacement of the ground; empty without [3]
 };
 
 inline Vec3 position_of(const MotionFrame& f, std::size_t block) {  // m
@@ -78,7 +80,8 @@ inline Vec3 corner_of(const MotionShape& shape, int i) {  // m
 class MotionWriter {
  public:
   // Starts a new DIR/motion.h5 and replaces an old one.
-  MotionWriter(const std::string& dir, const MotionScene& scene, bool stress = false);  // stress: with those of the joints
+  // `stress`: with those of the joints; `ground`: with the displacement of the ground.
+  MotionWriter(const std::string& dir, const MotionScene& scene, bool stress = false, bool ground = false);
   // Continues DIR/motion.h5 and keeps its first `keep_frames` frames; a file left by a killed writer will do.
   MotionWriter(const std::string& dir, int keep_frames);
   ~MotionWriter();
@@ -106,6 +109,9 @@ class MotionReader {
   const std::vector<double>& times() const;  // s  [frames]
   bool has_stress() const;
   bool has_forces() const;
+  // From now on read() gives poses, and points of forces, as one sees them who does not move with the ground. Error if the run has kept no
+  // displacement of the ground.
+  void stand_beside_the_ground();
   MotionFrame read(int frame) const;
 
  private:

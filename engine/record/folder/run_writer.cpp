@@ -52,6 +52,10 @@ MotionJoint joint_of(const Scene& scene, const Model& model, const Joint& joint)
   return drawn;
 }
 
+bool shakes(const Scene& scene) {
+  return std::ranges::any_of(scene.loads, [](const Load& load) { return load.kind == Load::Kind::ground; });
+}
+
 }  // namespace
 
 MotionScene motion_scene(const Scene& scene, const Model& model) {
@@ -82,7 +86,8 @@ RunWriter::RunWriter(const std::string& dir, const Scene& scene, const Model& mo
           table(run_file(dir, "energy.csv"), energy_columns(), resume, resume ? resume->energy_rows : 0, resume ? resume->energy_sum : 0)),
       events_(table(run_file(dir, "events.csv"), {"time_s", "event", "name", "value", "unit"}, resume, resume ? resume->event_rows : 0,
                     resume ? resume->event_sum : 0)),
-      motion_(resume ? MotionWriter(dir, resume->frames) : MotionWriter(dir, motion_scene(scene, model), scene.analysis.frame_stress)),
+      motion_(resume ? MotionWriter(dir, resume->frames)
+                     : MotionWriter(dir, motion_scene(scene, model), scene.analysis.frame_stress, shakes(scene))),
       flushed_(wall_clock()) {
   frame_.poses.resize(std::size_t(model.nblock) * 7);
   frame_.damage.resize(std::size_t(model.njoint));
@@ -129,6 +134,7 @@ void RunWriter::frame(const Snapshot& snapshot) {
       frame_.force_at[std::size_t(3 * j + i)] = float(thrust.at[i]);
     }
   }
+  frame_.ground = {snapshot.ground_u.x(), snapshot.ground_u.y(), snapshot.ground_u.z()};
   motion_.write(frame_);
 }
 

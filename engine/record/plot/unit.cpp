@@ -8,6 +8,14 @@ namespace {
 // Longer endings come first.
 const std::vector<Unit>& units() {
   static const std::vector<Unit> list{
+      {"kg_m2_s", "angular momentum", {{0, 1, "kg m²/s"}}},
+      {"kg_m_s", "momentum", {{0, 1, "kg m/s"}}},
+      {"kg_m3", "density", {{0, 1, "kg/m³"}}},
+      {"kg_m2", "moment of inertia", {{0, 1, "kg m²"}}},
+      {"J_m2", "fracture energy", {{0, 1, "J/m²"}}},
+      {"J_m", "energy per length", {{0, 1, "J/m"}}},
+      {"Pa_m", "stiffness", {{1e8, 1e-9, "GPa/m"}, {1e5, 1e-6, "MPa/m"}, {0, 1, "Pa/m"}}},
+      {"1_s", "rate", {{0, 1, "1/s"}}},
       {"rad_s2", "angular acceleration", {{0, 1, "rad/s²"}}},
       {"m_s2", "acceleration", {{0, 1, "m/s²"}}},
       {"rad_s", "spin", {{0, 1, "rad/s"}}},

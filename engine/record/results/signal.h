@@ -11,7 +11,7 @@ struct SamplePeak {
 };
 SamplePeak peak(const std::vector<double>& t, const std::vector<double>& y);
 
-double rms(const std::vector<double>& t, const std::vector<double>& y);  // sqrt of the time mean of y^2, y linear between samples
+double rms(const std::vector<double>& t, const std::vector<double>& y);  // sqrt of the time mean of y^2, y^2 linear between samples
 double mean(const std::vector<double>& t, const std::vector<double>& y);
 
 // Frequency (Hz) of the highest peak of the amplitude spectrum, at least `from` and below `to`. Method: mean removed, Hann window, zeros

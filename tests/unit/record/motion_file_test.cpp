@@ -200,6 +200,35 @@ TEST_CASE("stresses of joints are kept if asked for, through a resume too, and a
   CHECK(without.read(0).normal_stress.empty());
 }
 
+TEST_CASE("poses are relative to the ground, or as one at rest beside it sees them", "[record][motion_file]") {
+  const Folder dir;
+  {
+    MotionWriter writer(dir.path.string(), two_blocks(), false, true);
+    for (int i = 0; i < 2; ++i) {
+      MotionFrame f = frame_at(i);
+      f.ground = {0.1 * i, -0.2 * i, 0};
+      writer.write(f);
+    }
+  }
+  MotionWriter(dir.path.string(), 1);  // goes on
+  {
+    MotionWriter writer(dir.path.string(), 1);
+    MotionFrame f = frame_at(1);
+    f.ground = {0.5, 0.25, -0.125};
+    writer.write(f);
+  }
+  MotionReader reader(dir.path.string());
+  CHECK(reader.read(1).poses == frame_at(1).poses);
+  reader.stand_beside_the_ground();
+  const MotionFrame seen = reader.read(1);
+  CHECK(position_of(seen, 1).isApprox(position_of(frame_at(1), 1) + Vec3(0.5, 0.25, -0.125), 1e-6));
+  CHECK(seen.poses[10] == frame_at(1).poses[10]);  // no rotation
+  const Folder still;
+  MotionWriter(still.path.string(), two_blocks()).write(frame_at(0));
+  MotionReader without(still.path.string());
+  CHECK_THROWS_WITH(without.stand_beside_the_ground(), Catch::Contains("no displacement of the ground"));
+}
+
 TEST_CASE("a scene without joints and a file that is none", "[record][motion_file]") {
   const Folder dir;
   MotionScene scene = two_blocks();

@@ -32,8 +32,12 @@ TEST_CASE("the peak keeps its sign and its time", "[record][signal]") {
   CHECK_THROWS_AS(peak({0}, {1, 2}), Error);
 }
 
-TEST_CASE("rms and mean are exact for lines between samples", "[record][signal]") {
-  CHECK(rms({0, 1, 4}, {0, 1, 4}) == Approx(4 / std::sqrt(3.0)).epsilon(1e-14));  // y = t: sqrt(T^2 / 3), uneven samples
+TEST_CASE("the mean is exact for lines between samples, the rms for what they do not resolve as well", "[record][signal]") {
+  for (const double dt : {0.01, 0.004, 0.0005}) {
+    const Column c = column(int(5 / dt), dt, [](double t) { return 2 * std::sin(2 * pi * 56.3 * t + 0.3); });
+    CHECK(rms(c.t, c.y) == Approx(std::sqrt(2.0)).epsilon(0.01));
+  }
+  CHECK(rms({0, 1, 4}, {3, -3, 3}) == 3);  // uneven samples
   CHECK(mean({0, 1, 4}, {0, 1, 4}) == Approx(2.0).epsilon(1e-14));
 }
 
@@ -55,6 +59,12 @@ TEST_CASE("the spectrum's peak is the amplitude, the larger of two sines dominat
   }
   CHECK(at4 == Approx(0.5).epsilon(0.01));  // scalloping loss of a Hann window with 4 x padding: below 1 %
   CHECK(at9 == Approx(2.0).epsilon(0.01));
+}
+
+TEST_CASE("a band holds the peaks in it, not the flank of one outside", "[record][signal]") {
+  const Column c = column(1001, 0.005, [](double t) { return std::sin(2 * pi * 3.3 * t) + 0.05 * std::sin(2 * pi * 12 * t); });
+  CHECK(dominant_frequency(c.t, c.y) == Approx(3.3).margin(1e-3));
+  CHECK(dominant_frequency(c.t, c.y, 3.6, 20) == Approx(12).margin(2e-2));
 }
 
 TEST_CASE("uneven columns and constants", "[record][signal]") {

@@ -48,6 +48,7 @@ TEST_CASE("run offers histories, metrics, events and their numbers", "[lua]") {
   // Straight lines with 40 rows per period lose (pi/40)^2/3 of the rms.
   CHECK(value_of("run.rms('top_ux_rel_m')") == Approx(0.02 / std::sqrt(2)).epsilon(3e-3));
   CHECK(value_of("run.frequency('top_ux_rel_m')") == Approx(2.5).epsilon(2e-3));
+  CHECK(value_of("run.at('top_ux_rel_m', 99) == nil and run.at('top_ux_rel_m', -1) == nil and 1 or 0") == 1);
   CHECK(value_of("run.at('top_ux_rel_m', 0.1)") == Approx(0.02));
   CHECK(value_of("#run.history('top_ux_rel_m') + #run.time") == 802);
   CHECK(value_of("run.last('time_s')") == Approx(4));

@@ -124,6 +124,10 @@ TEST_CASE("columns know their unit", "[render][figures]") {
   CHECK(unit_of("floor3_ux_rel_m") == "m");
   CHECK(unit_of("floor3_ax_abs_m_s2") == "m_s2");
   CHECK(unit_of("base_moment_N_m") == "N_m");
+  CHECK(unit_of("wall_kg_m_s") == "kg_m_s");
+  CHECK(plot::label_of("spin_kg_m2_s") == "spin [kg m²/s]");
+  CHECK(plot::label_of("kn_Pa_m") == "kn [Pa/m]");
+  CHECK(plot::label_of("c_1_s") == "c [1/s]");
   CHECK(unit_of("contacts") == "");
   CHECK(words_of("floor3_ux_rel_m") == "floor3 ux rel");
 }
