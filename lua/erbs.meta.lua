@@ -69,7 +69,7 @@ start_noise = 0 -- noise in the initial state of every free block: erbs run --no
 ---@field name string name by which blocks refer to it
 ---@field density number mass per volume of the block [kg/m3; 0.01 to 100000]
 ---@field kn? number normal stiffness of debris contacts [Pa/m; 1000 to 1e+16; default 5e+10]
----@field ks? number shear stiffness of debris contacts [Pa/m; 0 to 1e+16; default 2e+10]
+---@field ks? number shear stiffness of debris contacts: 0.4 kn unless given [Pa/m; 0 to 1e+16; default 2e+10]
 ---@field friction? number coefficient of friction of debris contacts [0 to 10; default 0.6]
 ---@field restitution? number restitution of a central impact: speed after over before, at least 0.02 [0 to 1; default 0.3]
 ---@field color? erbs.vec3 red, green, blue for the pictures [0 to 1; default { 0.7, 0.35, 0.25 }]

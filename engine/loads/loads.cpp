@@ -1,5 +1,7 @@
 #include "engine/loads/loads.h"
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace erbs {
@@ -24,12 +26,32 @@ double end_time(const Wave& wave) {
   return std::visit([](const auto& w) { return end_time(w); }, wave);
 }
 
+namespace {
+
+// How often a line turns back, by more than a thousandth of its range.
+int turns_of(const std::vector<double>& values) {
+  const auto [low, high] = std::minmax_element(values.begin(), values.end());
+  const double back = 1e-3 * (*high - *low);
+  int turns = 0, way = 0;
+  double extreme = values.front();
+  for (const double value : values) {
+    const double from = value - extreme;
+    if (way * from >= 0 && (way != 0 || std::fabs(from) > back)) extreme = value, way = way != 0 ? way : from > 0 ? 1 : -1;
+    else if (way != 0 && std::fabs(from) > back) extreme = value, way = -way, ++turns;
+  }
+  return turns;
+}
+
+}  // namespace
+
 double following_step(const Wave& wave) {
   constexpr double share = 0.05, none = std::numeric_limits<double>::infinity();
   constexpr std::size_t swings = 10;  // points; fewer are ramps and leaps
   const auto of = [](const Polyline& line) {
     const std::size_t n = line.times.size();
-    return n < swings ? none : (line.times.back() - line.times.front()) / double(n - 1);
+    const int turns = n < swings ? 0 : turns_of(line.values);
+    const double length = line.times.back() - line.times.front();
+    return turns < 2 ? none : std::max(share * 2 * length / turns, length / double(n - 1));
   };
   return std::visit(
       [&](const auto& w) {

@@ -35,7 +35,7 @@ struct Material {
         {"name", &Material::name, "", "name by which blocks refer to it", 0, 0, true},
         {"density", &Material::density, "kg/m3", "mass per volume of the block", 0.01, 1e5, true},
         {"kn", &Material::kn, "Pa/m", "normal stiffness of debris contacts", 1e3, 1e16},
-        {"ks", &Material::ks, "Pa/m", "shear stiffness of debris contacts", 0, 1e16},
+        {"ks", &Material::ks, "Pa/m", "shear stiffness of debris contacts: 0.4 kn unless given", 0, 1e16},
         {"friction", &Material::friction, "", "coefficient of friction of debris contacts", 0, 10},
         {"restitution", &Material::restitution, "", "restitution of a central impact: speed after over before, at least 0.02", 0, 1},
         {"color", &Material::color, "", "red, green, blue for the pictures", 0, 1},

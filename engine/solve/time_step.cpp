@@ -187,8 +187,9 @@ double Solver::event_rate_of_first_openings() const {
 
 // The same of bonds that are about to break under loads that grow slowly. They break when the structure is nearly still, and set it
 // swinging: a step that is short by then costs nothing, one that shortens afterwards errs by as much as it saves. So it is left as it is
-// where its change would err by a hundredth of that.
+// where its change would err by a hundredth of that, or, while all is elastic, by a fifth of what the ledger then bears: the bond may hold.
 double Solver::event_rate_of_breaks() {
+  constexpr double elastic_share = 2e-7;
   constexpr int most_joints = 256;  // the energy of one bond is little among more, and asking them takes a part of the step
   TimeStep& time = state_.time;
   const double dt = time.last_dt, allowance = event_allowance(model_, state_);
@@ -208,7 +209,11 @@ double Solver::event_rate_of_breaks() {
     if (steps == soonest) rate = std::max(rate, breaks);
   }
   time.bonds_due = time.step + next / (next == soonest ? 2 : 4);
-  return rate * dt > 1 && vibration(Part::all) / 8 < 0.01 * rate * rate * allowance ? rate : 0;
+  if (!(rate * dt > 1)) return 0;
+  const double swing = vibration(Part::all) / 8;
+  const bool elastic = !joints_.any_cracked() && state_.energy.contact_damping == 0;
+  if (elastic && swing * dt * dt > elastic_share * state_.energy.reference) return 0;
+  return swing < 0.01 * rate * rate * allowance ? rate : 0;
 }
 
 // Event rate (1/s) of intact joints whose blocks move apart or together at the start, so fast that in two steps they may yield, at once or

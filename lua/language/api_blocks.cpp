@@ -52,7 +52,8 @@ void read_frictions(Call& call, Material& item) {
 
 int material(Call& call) {
   Material item;
-  call.arguments().read(item);
+  Arguments arguments = call.arguments();
+  if (arguments.read(item); !arguments.has("ks")) item.ks = 0.4 * item.kn;
   read_frictions(call, item);
   item.place = call.place;
   lua_pushstring(call.lua, item.name.c_str());
