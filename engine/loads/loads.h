@@ -29,8 +29,8 @@ double second_integral(const Wave& wave, double t);   // Int_0^t integral: its d
 double mean(const Wave& wave, double t0, double t1);  // (integral(t1) - integral(t0)) / (t1 - t0) without its cancellation; t0 = t1: value
 double end_time(const Wave& wave);                    // time after which the value is constant; infinite for an endless sine
 double resolution(const Wave& wave);
-// s, longest step that follows it: a twentieth of its period, of points of their mean period, but not less than their mean interval; infinite
-// for pulses and ramps, whose mean over a step is all that counts.
+// s, longest step that follows it: a twentieth of its period, of points of their mean one, but not less than their interval; infinite for
+// pulses and ramps, whose mean over a step is all that counts.
 double following_step(const Wave& wave);
 
 }  // namespace erbs
