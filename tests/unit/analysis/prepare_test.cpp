@@ -263,6 +263,17 @@ TEST_CASE("the step follows loads that are faster than the structure", "[analysi
   CHECK(step("ground_motion { direction = 'x', wave = sine { amplitude = 1, frequency = 60 } } analysis { dt_fraction = .45 }") ==
         Approx(1.0 / 2400));
   CHECK(step("ground_motion { direction = 'x', wave = table_wave { times = { 0, 1e-6, 1 }, values = { 0, 1, 1 } } }") == own);  // a leap
+  // Points count by how often they turn back, not by how close they lie.
+  const auto points = [&](int n, const std::string& value) {
+    return step(
+        fmt::format("local t, v = {{}}, {{}} for i = 0, {0} do t[i + 1], v[i + 1] = i / {0}, {1} end "
+                    "ground_motion {{ direction = 'x', wave = table_wave {{ times = t, values = v }} }}",
+                    n, value));
+  };
+  CHECK(points(20000, "(i / 20000) ^ 2") == own);
+  CHECK(points(20000, "math.sin(40 * math.pi * i / 20000)") == Approx(0.05 / 20).epsilon(0.06));
+  CHECK(points(20000, "math.sin(40 * math.pi * i / 20000) + 1e-5 * (i % 2)") == Approx(0.05 / 20).epsilon(0.06));
+  CHECK(points(500, "math.sin(160 * math.pi * i / 500)") == Approx(1.0 / 500));  // no finer than they are given
 }
 
 TEST_CASE("a bar on a pin swings to any angle with the default step", "[analysis]") {

@@ -27,6 +27,20 @@ std::string slope(const std::string& floor, const std::string& brick) {
 
 }  // namespace
 
+TEST_CASE("the shear stiffness of debris goes with its normal stiffness", "[scene]") {
+  Script script(Script::Options{.quiet = true});
+  const Scene scene = script.load_text(R"(
+    material{ name = "plain", density = 2000 }
+    material{ name = "soft", density = 2000, kn = 1e9 }
+    material{ name = "slippery", density = 2000, kn = 1e9, ks = 0 }
+    box{ name = "b", size = { 1, 1, 1 }, at = { 0, 0, 0 }, free = true, material = "soft" }
+    analysis{ duration = 1 })",
+                                       "scene.lua", {});
+  CHECK(scene.materials[0].ks == Approx(0.4 * 5e10));
+  CHECK(scene.materials[1].ks == Approx(4e8));
+  CHECK(scene.materials[2].ks == 0);
+}
+
 TEST_CASE("the friction between two materials is what either of them says of the other, else the smaller", "[lua][contact]") {
   const Scene scene = scene_of("material{ name = 's', density = 2000, friction = .3, friction_with = { s = .1, brick = .9 } }");
   const Material &brick = scene.materials[0], &stone = scene.materials[1];

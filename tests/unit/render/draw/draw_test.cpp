@@ -194,6 +194,17 @@ TEST_CASE("nothing is written over without --force, and names are checked", "[re
   REQUIRE(make_movie(run, reader, movie, go_on));
   CHECK_THROWS_WITH(make_movie(run, reader, movie, go_on), Catch::Contains("--force"));
   movie.force = true;
+  movie.stills = {0.1, 0.1002, 0.1002};
+  REQUIRE(make_movie(run, reader, movie, go_on));
+  CHECK(fs::exists(dir.path / "frames/corner_t0.1000s.png"));
+  CHECK(fs::exists(dir.path / "frames/corner_t0.1002s.png"));
+  // What cannot be made takes nothing away.
+  Movie film = stills({}, 1);
+  film.look.width = film.look.height = 65, film.video = true, film.force = true;
+  std::ofstream(dir.path / "frames/corner_00001.png") << "of before";
+  CHECK_THROWS_WITH(make_movie(run, reader, film, go_on), Catch::Contains("must be even"));
+  CHECK(fs::exists(dir.path / "frames/corner_00001.png"));
+  movie.stills = {0.1};
   movie.cameras = {"moon"};
   CHECK_THROWS_WITH(make_movie(run, reader, movie, go_on), Catch::Contains("corner"));
   const std::atomic<bool> stop{true};

@@ -6,6 +6,7 @@
 #include <catch2/catch.hpp>
 #include <filesystem>
 #include <fstream>
+#include <set>
 
 #include "engine/base/error.h"
 #include "engine/record/folder/colors.h"
@@ -195,6 +196,35 @@ TEST_CASE("a run folder from anywhere is drawn, and runs nothing", "[render][fig
   CHECK(write_figures(run).size() == 2);
   CHECK_FALSE(std::filesystem::exists(folder.path / "pwned"));
   CHECK_FALSE(std::filesystem::exists("pwned"));
+}
+
+TEST_CASE("names of many curves stand below each other, and what is more is told", "[render][figures]") {
+  for (const int curves : {8, 10, 16, 30}) {
+    const test::Folder dir;
+    Run run;
+    run.dir = dir.path.string();
+    {
+      std::ofstream csv(dir.path / "histories.csv");
+      for (const char* row : {"time_s", "0", "1"}) {
+        csv << row;
+        for (int i = 10; i < 10 + curves; ++i) csv << (*row == 't' ? fmt::format(",course{}_ux_rel_m", i) : fmt::format(",{}.{}", row, i));
+        csv << '\n';
+      }
+    }
+    REQUIRE(write_figures(run).size() == 1);
+    std::ifstream in(dir.path / "histories.svg");
+    const std::string svg{std::istreambuf_iterator<char>(in), {}};
+    std::set<std::string> columns, rows;  // places of names
+    for (std::size_t at = svg.find(">course"); at != std::string::npos; at = svg.find(">course", at + 1)) {
+      if (svg.compare(svg.rfind('<', at), 6, "<title") == 0) continue;
+      const std::size_t from = svg.rfind("translate(", at) + 10, comma = svg.find(',', from);
+      columns.insert(svg.substr(from, comma - from));
+      rows.insert(svg.substr(comma + 1, svg.find(')', comma) - comma - 1));
+    }
+    CHECK(columns.size() == 1);
+    CHECK(rows.size() == std::size_t(curves > 16 ? 15 : curves));
+    CHECK((svg.find("and 15 more") != std::string::npos) == (curves == 30));
+  }
 }
 
 TEST_CASE("energies that are small beside a fall have a panel of their own", "[render][figures]") {
